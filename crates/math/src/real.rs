@@ -1,0 +1,351 @@
+//! The number type a formula is written for: [`Real`], and its comparisons, [`Mask`].
+
+use core::fmt::Debug;
+use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
+
+use crate::{double, elementary};
+
+/// The answer of a comparison, one truth value per lane.
+pub trait Mask:
+    Copy + Debug + BitAnd<Output = Self> + BitOr<Output = Self> + Not<Output = Self> + 'static
+{
+    /// The same truth value in every lane.
+    fn of(b: bool) -> Self;
+    /// True where at least one lane is true.
+    fn any(self) -> bool;
+    /// True where every lane is true.
+    fn all(self) -> bool;
+}
+
+impl Mask for bool {
+    #[inline(always)]
+    fn of(b: bool) -> bool {
+        b
+    }
+    #[inline(always)]
+    fn any(self) -> bool {
+        self
+    }
+    #[inline(always)]
+    fn all(self) -> bool {
+        self
+    }
+}
+
+/// A real number, or several side by side: `f32`, `f64`, [`Lanes`](crate::Lanes).
+///
+/// A model is written once over this trait. What scalar code does with an early return is done with
+/// a mask and [`Real::select`], so that every lane runs the same instructions.
+///
+/// The elementary functions are the project's own: lanes agree with `f32` bit for bit, and platforms
+/// agree with each other. Errors are stated in [`crate::elementary`] and [`crate::double`].
+pub trait Real:
+    Copy
+    + Debug
+    + Default
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+    + 'static
+{
+    /// What comparisons return.
+    type Mask: Mask;
+    /// Number of lanes.
+    const WIDTH: usize;
+    /// 0
+    const ZERO: Self;
+    /// 1
+    const ONE: Self;
+
+    /// The constant `x`, in every lane, rounded to the precision of the type.
+    fn of(x: f64) -> Self;
+    /// Reads `WIDTH` numbers from `s[i..]`.
+    ///
+    /// Panics where the slice is too short.
+    fn load(s: &[f32], i: usize) -> Self;
+    /// Writes `WIDTH` numbers to `s[i..]`.
+    ///
+    /// Panics where the slice is too short.
+    fn store(self, s: &mut [f32], i: usize);
+    /// Square root, correctly rounded; NaN below zero.
+    fn sqrt(self) -> Self;
+    /// Magnitude.
+    fn abs(self) -> Self;
+    /// The smaller; `o` where either is NaN.
+    fn min(self, o: Self) -> Self;
+    /// The larger; `o` where either is NaN.
+    fn max(self, o: Self) -> Self;
+    /// The magnitude of `self` with the sign of `s`.
+    fn copysign(self, s: Self) -> Self;
+    /// `self * b + c`, fused where the type says that this is fast, else rounded twice.
+    fn fma(self, b: Self, c: Self) -> Self;
+    /// `self < o`
+    fn lt(self, o: Self) -> Self::Mask;
+    /// `self <= o`
+    fn le(self, o: Self) -> Self::Mask;
+    /// `self > o`
+    #[inline(always)]
+    fn gt(self, o: Self) -> Self::Mask {
+        o.lt(self)
+    }
+    /// `self >= o`
+    #[inline(always)]
+    fn ge(self, o: Self) -> Self::Mask {
+        o.le(self)
+    }
+    /// `a` where the mask is true, else `b`.
+    fn select(m: Self::Mask, a: Self, b: Self) -> Self;
+    /// Nearest whole number, for `|self| < 2^22`.
+    fn round(self) -> Self;
+    /// `2^n` for a whole number `n` in [-126, 127].
+    fn pow2(self) -> Self;
+    /// Mantissa in [0.5, 1) and exponent of a positive normal number.
+    fn frexp(self) -> (Self, Self);
+
+    /// `e^self`; the argument is clamped to what the type can hold.
+    #[inline(always)]
+    fn exp(self) -> Self {
+        elementary::exp(self)
+    }
+    /// Natural logarithm of a positive normal number.
+    #[inline(always)]
+    fn ln(self) -> Self {
+        elementary::ln(self)
+    }
+    /// Sine and cosine, `|self| < 8000`.
+    #[inline(always)]
+    fn sin_cos(self) -> (Self, Self) {
+        elementary::sin_cos(self)
+    }
+    /// Angle of the point (`x`, `self`), in (-pi, pi]; 0 at the origin.
+    #[inline(always)]
+    fn atan2(self, x: Self) -> Self {
+        elementary::atan2(self, x)
+    }
+    /// `e^-x I_0(x)` for `x >= 0`.
+    #[inline(always)]
+    fn i0e(self) -> Self {
+        elementary::i0e(self)
+    }
+
+    /// `self^2`
+    #[inline(always)]
+    fn sqr(self) -> Self {
+        self * self
+    }
+    /// Square root of the positive part: for numbers that only rounding takes below zero.
+    #[inline(always)]
+    fn safe_sqrt(self) -> Self {
+        self.max(Self::ZERO).sqrt()
+    }
+    /// `min(max(self, lo), hi)`
+    #[inline(always)]
+    fn clamp(self, lo: Self, hi: Self) -> Self {
+        self.max(lo).min(hi)
+    }
+    /// Arc sine; arguments beyond 1 count as 1.
+    #[inline(always)]
+    fn asin(self) -> Self {
+        self.atan2(((Self::ONE - self) * (Self::ONE + self)).safe_sqrt())
+    }
+    /// Arc cosine; arguments beyond 1 count as 1.
+    #[inline(always)]
+    fn acos(self) -> Self {
+        ((Self::ONE - self) * (Self::ONE + self)).safe_sqrt().atan2(self)
+    }
+    /// Sine.
+    #[inline(always)]
+    fn sin(self) -> Self {
+        self.sin_cos().0
+    }
+    /// Cosine.
+    #[inline(always)]
+    fn cos(self) -> Self {
+        self.sin_cos().1
+    }
+    /// Tangent.
+    #[inline(always)]
+    fn tan(self) -> Self {
+        let (s, c) = self.sin_cos();
+        s / c
+    }
+    /// `self^y` for positive `self`.
+    #[inline(always)]
+    fn pow(self, y: Self) -> Self {
+        (y * self.ln()).exp()
+    }
+    /// `(1 - t) self + t b`
+    #[inline(always)]
+    fn lerp(self, b: Self, t: Self) -> Self {
+        (Self::ONE - t) * self + t * b
+    }
+    /// `self` where the mask is true, else zero.
+    #[inline(always)]
+    fn only_where(self, m: Self::Mask) -> Self {
+        Self::select(m, self, Self::ZERO)
+    }
+}
+
+/// Adding this to a small `f32` and taking it away again rounds to a whole number (1.5 * 2^23).
+const ROUNDER: f32 = 12_582_912.0;
+
+impl Real for f32 {
+    type Mask = bool;
+    const WIDTH: usize = 1;
+    const ZERO: f32 = 0.0;
+    const ONE: f32 = 1.0;
+    #[inline(always)]
+    fn of(x: f64) -> f32 {
+        x as f32
+    }
+    #[inline(always)]
+    fn load(s: &[f32], i: usize) -> f32 {
+        s[i]
+    }
+    #[inline(always)]
+    fn store(self, s: &mut [f32], i: usize) {
+        s[i] = self;
+    }
+    #[inline(always)]
+    fn sqrt(self) -> f32 {
+        f32::sqrt(self)
+    }
+    #[inline(always)]
+    fn abs(self) -> f32 {
+        f32::abs(self)
+    }
+    #[inline(always)]
+    fn min(self, o: f32) -> f32 {
+        if self < o { self } else { o }
+    }
+    #[inline(always)]
+    fn max(self, o: f32) -> f32 {
+        if self > o { self } else { o }
+    }
+    #[inline(always)]
+    fn copysign(self, s: f32) -> f32 {
+        f32::copysign(self, s)
+    }
+    #[inline(always)]
+    fn fma(self, b: f32, c: f32) -> f32 {
+        self * b + c
+    }
+    #[inline(always)]
+    fn lt(self, o: f32) -> bool {
+        self < o
+    }
+    #[inline(always)]
+    fn le(self, o: f32) -> bool {
+        self <= o
+    }
+    #[inline(always)]
+    fn select(m: bool, a: f32, b: f32) -> f32 {
+        if m { a } else { b }
+    }
+    #[inline(always)]
+    fn round(self) -> f32 {
+        (self + ROUNDER) - ROUNDER
+    }
+    #[inline(always)]
+    fn pow2(self) -> f32 {
+        f32::from_bits(((self + ROUNDER).to_bits() << 23).wrapping_add(127 << 23))
+    }
+    #[inline(always)]
+    fn frexp(self) -> (f32, f32) {
+        let b = self.to_bits();
+        (f32::from_bits((b & 0x007f_ffff) | 0x3f00_0000), ((b >> 23) as i32 - 126) as f32)
+    }
+}
+
+impl Real for f64 {
+    type Mask = bool;
+    const WIDTH: usize = 1;
+    const ZERO: f64 = 0.0;
+    const ONE: f64 = 1.0;
+    #[inline(always)]
+    fn of(x: f64) -> f64 {
+        x
+    }
+    #[inline(always)]
+    fn load(s: &[f32], i: usize) -> f64 {
+        f64::from(s[i])
+    }
+    #[inline(always)]
+    fn store(self, s: &mut [f32], i: usize) {
+        s[i] = self as f32;
+    }
+    #[inline(always)]
+    fn sqrt(self) -> f64 {
+        f64::sqrt(self)
+    }
+    #[inline(always)]
+    fn abs(self) -> f64 {
+        f64::abs(self)
+    }
+    #[inline(always)]
+    fn min(self, o: f64) -> f64 {
+        if self < o { self } else { o }
+    }
+    #[inline(always)]
+    fn max(self, o: f64) -> f64 {
+        if self > o { self } else { o }
+    }
+    #[inline(always)]
+    fn copysign(self, s: f64) -> f64 {
+        f64::copysign(self, s)
+    }
+    #[inline(always)]
+    fn fma(self, b: f64, c: f64) -> f64 {
+        self * b + c
+    }
+    #[inline(always)]
+    fn lt(self, o: f64) -> bool {
+        self < o
+    }
+    #[inline(always)]
+    fn le(self, o: f64) -> bool {
+        self <= o
+    }
+    #[inline(always)]
+    fn select(m: bool, a: f64, b: f64) -> f64 {
+        if m { a } else { b }
+    }
+    #[inline(always)]
+    fn round(self) -> f64 {
+        f64::round_ties_even(self)
+    }
+    #[inline(always)]
+    fn pow2(self) -> f64 {
+        f64::from_bits(((1023 + self as i64) as u64) << 52)
+    }
+    #[inline(always)]
+    fn frexp(self) -> (f64, f64) {
+        let b = self.to_bits();
+        (
+            f64::from_bits((b & 0x000f_ffff_ffff_ffff) | 0x3fe0_0000_0000_0000),
+            ((b >> 52) as i64 - 1022) as f64,
+        )
+    }
+    #[inline]
+    fn exp(self) -> f64 {
+        double::exp(self)
+    }
+    #[inline]
+    fn ln(self) -> f64 {
+        double::ln(self)
+    }
+    #[inline]
+    fn sin_cos(self) -> (f64, f64) {
+        double::sin_cos(self)
+    }
+    #[inline]
+    fn atan2(self, x: f64) -> f64 {
+        double::atan2(self, x)
+    }
+    #[inline]
+    fn i0e(self) -> f64 {
+        double::i0e(self)
+    }
+}

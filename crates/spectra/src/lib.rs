@@ -1,0 +1,5 @@
+//! Spectra of Sparrow: the values a path carries, colour, and spectral data.
+
+mod sampled;
+
+pub use sampled::{N_LAMBDA, Spectrum};
