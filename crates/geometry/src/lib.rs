@@ -1,1 +1,16 @@
-//! geometry
+//! Shapes of Sparrow, what a ray meets of them, and how to aim at them.
+//!
+//! [`Geometry::build`] takes shapes and puts a bounding volume hierarchy over their primitives;
+//! everything else is a question asked of the result. The crate knows no materials, lights or files.
+//! Everything is in world space; parametrisations, tangents and the side of normals mean what they
+//! mean in pbrt-v4.
+
+mod geometry;
+mod point;
+mod ray;
+mod shape;
+
+pub use geometry::{BuildStats, Geometry};
+pub use point::{ShapeSample, SurfacePoint};
+pub use ray::{Hit, Ray};
+pub use shape::{BilinearMesh, Shape, ShapeInstance, TriangleMesh};

@@ -1,0 +1,90 @@
+//! Points on surfaces: [`SurfacePoint`], met by a ray, and [`ShapeSample`], drawn at random.
+
+use sparrow_math::Vec3;
+
+use crate::ray::Ray;
+
+/// How far from the target a shadow ray ends, relative to its length; pbrt-v4's value.
+const SHADOW_GAP: f32 = 1e-4;
+
+/// The surface where a ray met it.
+#[derive(Clone, Copy, Debug)]
+pub struct SurfacePoint {
+    /// The point.
+    pub p: Vec3<f32>,
+    /// Bound of the rounding error of `p`, component by component.
+    pub p_error: Vec3<f32>,
+    /// Unit geometric normal; on the side of `ns` where the mesh has normals.
+    pub ng: Vec3<f32>,
+    /// Unit shading normal.
+    pub ns: Vec3<f32>,
+    /// Derivative of the point by the first texture coordinate.
+    pub dpdu: Vec3<f32>,
+    /// Derivative of the point by the second texture coordinate.
+    pub dpdv: Vec3<f32>,
+    /// Derivative of the shading normal by the first texture coordinate.
+    pub dndu: Vec3<f32>,
+    /// Derivative of the shading normal by the second texture coordinate.
+    pub dndv: Vec3<f32>,
+    /// Texture coordinates.
+    pub uv: [f32; 2],
+    /// Shading tangent, perpendicular to `ns`, not of unit length: after `dpdu` or the mesh's own tangents.
+    pub tangent: Vec3<f32>,
+    /// Number of the shape.
+    pub shape: u32,
+    /// Number of the primitive in its shape.
+    pub prim: u32,
+}
+
+/// Moves `p` along the unit normal `n`, to the side of `w`, beyond its rounding error. [pbrt-v4, section 6.8.6]
+pub(crate) fn offset_point(p: Vec3<f32>, p_error: Vec3<f32>, n: Vec3<f32>, w: Vec3<f32>) -> Vec3<f32> {
+    let d = n.abs().dot(p_error);
+    let offset = n * if w.dot(n) < 0.0 { -d } else { d };
+    let away = |p: f32, o: f32| {
+        if o > 0.0 {
+            (p + o).next_up()
+        } else if o < 0.0 {
+            (p + o).next_down()
+        } else {
+            p
+        }
+    };
+    sparrow_math::vec3(away(p.x, offset.x), away(p.y, offset.y), away(p.z, offset.z))
+}
+
+impl SurfacePoint {
+    /// The ray that leaves in direction `d` and does not meet its own surface again through rounding.
+    pub fn spawn(&self, d: Vec3<f32>) -> Ray {
+        Ray::new(offset_point(self.p, self.p_error, self.ng, d), d)
+    }
+    /// The shadow ray to a point in space; it ends just before.
+    pub fn spawn_to(&self, p: Vec3<f32>) -> Ray {
+        let o = offset_point(self.p, self.p_error, self.ng, p - self.p);
+        Ray { o, d: p - o, t_max: 1.0 - SHADOW_GAP }
+    }
+    /// The shadow ray to a point of another surface; it ends just before, and beside that surface's rounding error.
+    pub fn spawn_to_sample(&self, s: &ShapeSample) -> Ray {
+        let o = offset_point(self.p, self.p_error, self.ng, s.p - self.p);
+        let p = offset_point(s.p, s.p_error, s.n, o - s.p);
+        Ray { o, d: p - o, t_max: 1.0 - SHADOW_GAP }
+    }
+}
+
+/// A point drawn on a primitive.
+#[derive(Clone, Copy, Debug)]
+pub struct ShapeSample {
+    /// The point.
+    pub p: Vec3<f32>,
+    /// Bound of the rounding error of `p`, component by component.
+    pub p_error: Vec3<f32>,
+    /// Unit geometric normal, on the side [`SurfacePoint::ng`] has there.
+    pub n: Vec3<f32>,
+    /// Texture coordinates.
+    pub uv: [f32; 2],
+    /// Unit direction from the observer to the point; zero where there is no observer.
+    pub wi: Vec3<f32>,
+    /// Distance to the observer; zero where there is none.
+    pub distance: f32,
+    /// Density: per steradian at the observer, or per area where there is none.
+    pub pdf: f32,
+}

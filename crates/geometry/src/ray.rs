@@ -1,0 +1,42 @@
+//! [`Ray`]s and what they meet: [`Hit`].
+
+use sparrow_math::Vec3;
+
+/// The points `o + t d` with `0 < t < t_max`; `d` need not be of unit length.
+#[derive(Clone, Copy, Debug)]
+pub struct Ray {
+    /// Origin.
+    pub o: Vec3<f32>,
+    /// Direction.
+    pub d: Vec3<f32>,
+    /// Where it ends, in units of `d`; the end does not belong to it.
+    pub t_max: f32,
+}
+
+impl Ray {
+    /// A ray without end.
+    #[inline]
+    pub fn new(o: Vec3<f32>, d: Vec3<f32>) -> Ray {
+        Ray { o, d, t_max: f32::INFINITY }
+    }
+    /// The point at parameter `t`.
+    #[inline]
+    pub fn at(&self, t: f32) -> Vec3<f32> {
+        self.o + self.d * t
+    }
+}
+
+/// Where a ray meets a primitive.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hit {
+    /// Parameter along the ray.
+    pub t: f32,
+    /// Number of the shape, in the order given to [`Geometry::build`](crate::Geometry::build).
+    pub shape: u32,
+    /// Number of the primitive in its shape; 0 for quadrics.
+    pub prim: u32,
+    /// Barycentric weight of the second corner; first parameter of a patch or quadric.
+    pub u: f32,
+    /// Barycentric weight of the third corner; second parameter of a patch or quadric.
+    pub v: f32,
+}

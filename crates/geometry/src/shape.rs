@@ -1,0 +1,89 @@
+//! What a scene hands over: [`Shape`]s and their placement.
+
+use sparrow_math::Transform;
+
+/// A triangle mesh in world space.
+///
+/// The per-vertex lists are empty or as long as `p`. Normals are stored as pbrt-v4 stores them:
+/// mapped to world space and already negated where the orientation is reversed.
+#[derive(Clone, Debug, Default)]
+pub struct TriangleMesh {
+    /// Vertices.
+    pub p: Vec<[f32; 3]>,
+    /// Three vertex numbers a triangle.
+    pub indices: Vec<[u32; 3]>,
+    /// Shading normals, of any length, or empty.
+    pub n: Vec<[f32; 3]>,
+    /// Shading tangents, or empty.
+    pub s: Vec<[f32; 3]>,
+    /// Texture coordinates, or empty: then every triangle has (0,0), (1,0), (1,1).
+    pub uv: Vec<[f32; 2]>,
+}
+
+/// A mesh of bilinear patches in world space.
+///
+/// The per-vertex lists are empty or as long as `p`; normals as in [`TriangleMesh`].
+#[derive(Clone, Debug, Default)]
+pub struct BilinearMesh {
+    /// Vertices.
+    pub p: Vec<[f32; 3]>,
+    /// Four vertex numbers a patch, in the order p00, p10, p01, p11.
+    pub indices: Vec<[u32; 4]>,
+    /// Shading normals, of any length, or empty.
+    pub n: Vec<[f32; 3]>,
+    /// Texture coordinates, or empty: then those of the patch itself.
+    pub uv: Vec<[f32; 2]>,
+}
+
+/// A shape. Quadrics stand in their own object space around the z axis; angles are in radians.
+#[derive(Clone, Debug)]
+pub enum Shape {
+    /// Triangles.
+    Triangles(TriangleMesh),
+    /// Bilinear patches.
+    Patches(BilinearMesh),
+    /// Sphere around the origin, cut at two heights and at an azimuth.
+    Sphere {
+        /// Radius.
+        radius: f32,
+        /// Lower cut.
+        z_min: f32,
+        /// Upper cut.
+        z_max: f32,
+        /// Azimuth where it ends, at most 2 pi.
+        phi_max: f32,
+    },
+    /// Disk at z = `height`.
+    Disk {
+        /// Place along z.
+        height: f32,
+        /// Outer radius.
+        radius: f32,
+        /// Radius of the hole.
+        inner_radius: f32,
+        /// Azimuth where it ends, at most 2 pi.
+        phi_max: f32,
+    },
+    /// Open cylinder around z.
+    Cylinder {
+        /// Radius.
+        radius: f32,
+        /// Lower end.
+        z_min: f32,
+        /// Upper end.
+        z_max: f32,
+        /// Azimuth where it ends, at most 2 pi.
+        phi_max: f32,
+    },
+}
+
+/// A shape at its place.
+#[derive(Clone, Debug)]
+pub struct ShapeInstance {
+    /// The shape.
+    pub shape: Shape,
+    /// World space from object space, for quadrics; not looked at for meshes, which are in world space.
+    pub to_world: Transform,
+    /// The orientation is reversed, or the map to world space swaps handedness, but not both.
+    pub flip_normal: bool,
+}
