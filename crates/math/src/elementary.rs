@@ -98,9 +98,10 @@ pub fn atan2<R: Real>(y: R, x: R) -> R {
     let big = num.gt(den * R::of(0.414_213_562_373_095));
     let t = R::select(big, num - den, num) / R::select(big, num + den, den);
     let z = t * t;
-    let p =
-        poly(z, [8.053_744_495_38e-2, -1.387_768_560_32e-1, 1.997_771_064_78e-1, -3.333_294_915_39e-1]) * z * t
-            + t;
+    let p = poly(z, [8.053_744_495_38e-2, -1.387_768_560_32e-1, 1.997_771_064_78e-1, -3.333_294_915_39e-1])
+        * z
+        * t
+        + t;
     let r = R::select(big, p + R::of(FRAC_PI_4), p);
     let r = R::select(swap, R::of(FRAC_PI_2) - r, r);
     let r = R::select(x.lt(R::ZERO), R::of(PI) - r, r);

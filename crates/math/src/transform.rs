@@ -101,7 +101,9 @@ impl Transform {
     pub fn look_at(eye: Vec3<f64>, at: Vec3<f64>, up: Vec3<f64>) -> Option<Transform> {
         let d = (at - eye).normalized();
         let right = up.normalized().cross(d);
-        if !(right.length() > 1e-12) {
+        // Null or not a number: the three vectors span no frame.
+        let spans = right.length() > 1e-12;
+        if !spans {
             return None;
         }
         let right = right.normalized();

@@ -61,3 +61,76 @@ pub fn uniform_triangle<R: Real>(u: [R; 2]) -> [R; 2] {
     let b1 = R::select(low, u[1] - u[0] * half, u[1] * half);
     [b0, b1]
 }
+
+/// Unit square to unit sphere, area-preserving, by a folded octahedron. [Clarberg2008]
+///
+/// pbrt-v4's layout of environment maps: the centre of the square is +z, its corners are -z.
+pub fn equal_area_square_to_sphere(p: [f32; 2]) -> Vec3<f32> {
+    let (u, v) = (2.0 * p[0] - 1.0, 2.0 * p[1] - 1.0);
+    let (up, vp) = (u.abs(), v.abs());
+    let signed = 1.0 - (up + vp);
+    let r = 1.0 - signed.abs();
+    let phi = (if r > 0.0 { (vp - up) / r + 1.0 } else { 1.0 }) * core::f32::consts::FRAC_PI_4;
+    let (s, c) = Real::sin_cos(phi);
+    let h = r * Real::safe_sqrt(2.0 - r * r);
+    vec3((c * h).copysign(u), (s * h).copysign(v), (1.0 - r * r).copysign(signed))
+}
+
+/// The way back from [`equal_area_square_to_sphere`].
+pub fn equal_area_sphere_to_square(d: Vec3<f32>) -> [f32; 2] {
+    let (x, y) = (d.x.abs(), d.y.abs());
+    let r = Real::safe_sqrt(1.0 - d.z.abs());
+    let phi = Real::atan2(y, x) * core::f32::consts::FRAC_2_PI;
+    let (mut v, mut u) = (phi * r, r - phi * r);
+    if d.z < 0.0 {
+        (u, v) = (1.0 - v, 1.0 - u);
+    }
+    [(u.copysign(d.x) + 1.0) * 0.5, (v.copysign(d.y) + 1.0) * 0.5]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn octahedral_map_and_its_inverse_agree() {
+        for i in 0..64 {
+            for j in 0..64 {
+                let p = [(i as f32 + 0.37) / 64.0, (j as f32 + 0.61) / 64.0];
+                let d = equal_area_square_to_sphere(p);
+                assert!((d.length() - 1.0).abs() < 1e-6);
+                let q = equal_area_sphere_to_square(d);
+                assert!((p[0] - q[0]).abs() < 2e-4 && (p[1] - q[1]).abs() < 2e-4, "{p:?} {d:?} {q:?}");
+            }
+        }
+        assert!(equal_area_square_to_sphere([0.5, 0.5]).z > 0.9999);
+    }
+
+    #[test]
+    fn octahedral_map_preserves_area() {
+        // Each octant holds an eighth of the square.
+        let n = 256;
+        let mut octants = [0u32; 8];
+        for i in 0..n * n {
+            let d = equal_area_square_to_sphere([
+                ((i % n) as f32 + 0.5) / n as f32,
+                ((i / n) as f32 + 0.5) / n as f32,
+            ]);
+            octants[usize::from(d.x > 0.0) + 2 * usize::from(d.y > 0.0) + 4 * usize::from(d.z > 0.0)] += 1;
+        }
+        let eighth = (n * n / 8) as f32;
+        assert!(octants.iter().all(|&o| (o as f32 / eighth - 1.0).abs() < 0.02), "{octants:?}");
+    }
+
+    #[test]
+    fn cosine_hemisphere_has_the_right_mean_height() {
+        let n = 128;
+        let mean: f64 = (0..n * n)
+            .map(|i| {
+                let u = [(f64::from(i % n) + 0.5) / f64::from(n), (f64::from(i / n) + 0.5) / f64::from(n)];
+                cosine_hemisphere(u).z / f64::from(n * n)
+            })
+            .sum();
+        assert!((mean - 2.0 / 3.0).abs() < 1e-4, "{mean}");
+    }
+}

@@ -1,0 +1,92 @@
+//! The GGX (Trowbridge-Reitz) distribution of microfacet normals with Smith's masking.
+//!
+//! Shared by every microfacet model. Symbols as in [Heitz2014]: `D` the distribution, `Lambda` the
+//! masking integral, `G1 = 1 / (1 + Lambda)`, `G2` height-correlated.
+
+use core::f64::consts::PI;
+
+use sparrow_math::{LocalDir, Real, vec3};
+
+/// Below this slope width a surface counts as a mirror: single precision cannot resolve the lobe.
+pub const ALPHA_SMOOTH: f64 = 1e-3;
+/// Smallest slope width the formulas are evaluated with where only one axis is that narrow.
+const ALPHA_MIN: f64 = 1e-4;
+
+/// GGX with slope widths along x (the grain) and y.
+#[derive(Clone, Copy, Debug)]
+pub struct Ggx<R> {
+    alpha_x: R,
+    alpha_y: R,
+}
+
+impl<R: Real> Ggx<R> {
+    /// Slope widths along the tangent and across it.
+    #[inline(always)]
+    pub fn new(alpha_x: R, alpha_y: R) -> Self {
+        Ggx { alpha_x: alpha_x.max(R::of(ALPHA_MIN)), alpha_y: alpha_y.max(R::of(ALPHA_MIN)) }
+    }
+    /// The surface is a mirror in both directions.
+    #[inline(always)]
+    pub fn is_smooth(&self) -> R::Mask {
+        self.alpha_x.max(self.alpha_y).lt(R::of(ALPHA_SMOOTH))
+    }
+    /// Widened as pbrt-v4 regularises: doubled and brought into [0.1, 0.3] where it was below 0.3.
+    #[inline(always)]
+    #[must_use]
+    pub fn regularized(self) -> Self {
+        let wider = |a: R| {
+            let w = (a + a).clamp(R::of(0.1), R::of(0.3));
+            R::select(a.lt(R::of(0.3)), w, a)
+        };
+        Ggx { alpha_x: wider(self.alpha_x), alpha_y: wider(self.alpha_y) }
+    }
+
+    /// `D(m)`, per steradian; integrates to one with the weight `cos theta_m`. [Heitz2014, eq. 85]
+    ///
+    /// In vector form, which keeps its digits at grazing normals.
+    #[inline(always)]
+    pub fn d(&self, m: LocalDir<R>) -> R {
+        let s = (m.x() / self.alpha_x).sqr() + (m.y() / self.alpha_y).sqr() + m.z().sqr();
+        R::ONE / (R::of(PI) * self.alpha_x * self.alpha_y * s.sqr())
+    }
+    /// `|cos theta| (1 + 2 Lambda(w))`, free of divisions. [Heitz2014, eq. 86]
+    #[inline(always)]
+    pub fn stretched(&self, w: LocalDir<R>) -> R {
+        ((self.alpha_x * w.x()).sqr() + (self.alpha_y * w.y()).sqr() + w.z().sqr()).sqrt()
+    }
+    /// `G2(wo, wi) / (4 |cos theta_o| |cos theta_i|)` for reflection. [Heitz2014, eq. 99]
+    #[inline(always)]
+    pub fn g2_over_4cos(&self, wo: LocalDir<R>, wi: LocalDir<R>) -> R {
+        R::of(0.5) / self.crossed(wo, wi)
+    }
+    /// `G2(wo, wi) / G1(wo)`
+    #[inline(always)]
+    pub fn g2_over_g1(&self, wo: LocalDir<R>, wi: LocalDir<R>) -> R {
+        wi.abs_cos_theta() * (wo.abs_cos_theta() + self.stretched(wo)) / self.crossed(wo, wi)
+    }
+    /// `2 |cos_o| |cos_i| / G2`: the denominator that the correlated forms share.
+    #[inline(always)]
+    fn crossed(&self, wo: LocalDir<R>, wi: LocalDir<R>) -> R {
+        wo.abs_cos_theta() * self.stretched(wi) + wi.abs_cos_theta() * self.stretched(wo)
+    }
+    /// Density of the visible normals over `wo.m`: `D_w(m) / (wo.m) = G1(wo) D(m) / |cos theta_o|`. [Heitz2018, eq. 1]
+    ///
+    /// Divided by four it is the density of the reflected direction.
+    #[inline(always)]
+    pub fn visible_over_cos(&self, wo: LocalDir<R>, m: LocalDir<R>) -> R {
+        R::of(2.0) * self.d(m) / (wo.abs_cos_theta() + self.stretched(wo))
+    }
+    /// A normal among those visible from `wo`, on the upper side. [DupuyBenyoub2023, listing 3]
+    ///
+    /// `wo` must lie above.
+    #[inline(always)]
+    pub fn sample_visible(&self, wo: LocalDir<R>, u: [R; 2]) -> LocalDir<R> {
+        let w = vec3(self.alpha_x * wo.x(), self.alpha_y * wo.y(), wo.z()).normalized();
+        let (sin_phi, cos_phi) = (R::of(2.0 * PI) * u[0]).sin_cos();
+        let z = (R::ONE - u[1]) * (R::ONE + w.z) - w.z;
+        let s = ((R::ONE - z) * (R::ONE + z)).safe_sqrt();
+        let n = vec3(s * cos_phi, s * sin_phi, z) + w;
+        // Rounding may take z to zero or below at grazing views.
+        LocalDir::new(vec3(self.alpha_x * n.x, self.alpha_y * n.y, n.z.max(R::of(1e-7))).normalized())
+    }
+}

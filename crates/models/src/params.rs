@@ -1,0 +1,123 @@
+//! Parameter tables: what a model can be told, written once and read by everything else.
+
+use sparrow_math::Real;
+use sparrow_spectra::Spectrum;
+
+/// What kind of number a parameter takes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ParamKind {
+    /// One number.
+    Real,
+    /// A reflectance or another spectrum that stays in 0..1; RGB values are upsampled as reflectances.
+    Albedo,
+    /// A spectrum without an upper bound, such as a refractive index; RGB values are upsampled with a scale.
+    Unbounded,
+}
+
+/// One parameter of a model.
+///
+/// The scene reader's checks, the command's help and the random parameters of the tests read this
+/// table; nobody writes a range twice.
+#[derive(Clone, Copy, Debug)]
+pub struct ParamInfo {
+    /// Name in scenes and on the command line, snake case.
+    pub name: &'static str,
+    /// What it takes.
+    pub kind: ParamKind,
+    /// Unit; "1" for pure numbers.
+    pub unit: &'static str,
+    /// Value where the user gives none; for a spectrum, the same at every wavelength.
+    pub default: f64,
+    /// What is accepted.
+    pub range: [f64; 2],
+    /// What a slider offers.
+    pub soft: [f64; 2],
+    /// One sentence.
+    pub doc: &'static str,
+}
+
+impl ParamInfo {
+    const fn new(name: &'static str, kind: ParamKind, range: [f64; 2]) -> Self {
+        ParamInfo { name, kind, unit: "1", default: 0.5, range, soft: range, doc: "" }
+    }
+    /// A number, in 0..1 unless [`range`](Self::range) says otherwise.
+    pub const fn real(name: &'static str) -> Self {
+        Self::new(name, ParamKind::Real, [0.0, 1.0])
+    }
+    /// A spectrum in 0..1.
+    pub const fn albedo(name: &'static str) -> Self {
+        Self::new(name, ParamKind::Albedo, [0.0, 1.0])
+    }
+    /// A spectrum without an upper bound.
+    pub const fn unbounded(name: &'static str) -> Self {
+        Self::new(name, ParamKind::Unbounded, [0.0, f64::INFINITY])
+    }
+    /// Sets the unit.
+    pub const fn unit(mut self, unit: &'static str) -> Self {
+        self.unit = unit;
+        self
+    }
+    /// Sets the default.
+    pub const fn default(mut self, v: f64) -> Self {
+        self.default = v;
+        self
+    }
+    /// Sets what is accepted, and what a slider offers.
+    pub const fn range(mut self, lo: f64, hi: f64) -> Self {
+        self.range = [lo, hi];
+        self.soft = [lo, hi];
+        self
+    }
+    /// Sets what a slider offers.
+    pub const fn soft(mut self, lo: f64, hi: f64) -> Self {
+        self.soft = [lo, hi];
+        self
+    }
+    /// Sets the sentence.
+    pub const fn doc(mut self, doc: &'static str) -> Self {
+        self.doc = doc;
+        self
+    }
+}
+
+/// Most numbers a model may take.
+pub const MAX_REALS: usize = 8;
+/// Most spectra a model may take.
+pub const MAX_SPECTRA: usize = 4;
+
+/// The values of a model's parameters at one point and one set of wavelengths: numbers and spectra, each
+/// in the order in which the model's table lists them.
+#[derive(Clone, Copy, Debug)]
+pub struct ParamBlock<R> {
+    /// Values of the `Real` parameters.
+    pub reals: [R; MAX_REALS],
+    /// Values of the `Albedo` and `Unbounded` parameters.
+    pub spectra: [Spectrum<R>; MAX_SPECTRA],
+}
+
+impl<R: Real> Default for ParamBlock<R> {
+    fn default() -> Self {
+        ParamBlock { reals: [R::ZERO; MAX_REALS], spectra: [Spectrum::ZERO; MAX_SPECTRA] }
+    }
+}
+
+impl<R: Real> ParamBlock<R> {
+    /// Every parameter of `table` at its default.
+    pub fn defaults(table: &[ParamInfo]) -> Self {
+        let mut block = Self::default();
+        let (mut r, mut s) = (0, 0);
+        for p in table {
+            match p.kind {
+                ParamKind::Real => {
+                    block.reals[r] = R::of(p.default);
+                    r += 1;
+                }
+                ParamKind::Albedo | ParamKind::Unbounded => {
+                    block.spectra[s] = Spectrum::splat(R::of(p.default));
+                    s += 1;
+                }
+            }
+        }
+        block
+    }
+}

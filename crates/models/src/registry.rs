@@ -1,0 +1,118 @@
+//! The macro that makes one table of models: the enum, its dispatch, the names and the constructor.
+
+use crate::{ParamBlock, ParamInfo};
+
+/// What the registry asks of a model besides its contract.
+pub trait Model<R>: Sized {
+    /// The parameters, in the order in which [`ParamBlock`] holds them.
+    const PARAMS: &'static [ParamInfo];
+    /// Binds the parameters. Values lie in the ranges of the table.
+    fn new(params: &ParamBlock<R>) -> Self;
+}
+
+macro_rules! models {
+    (
+        $(#[$doc:meta])*
+        $Enum:ident, $Kind:ident: $Trait:ident {
+            $( $Variant:ident = $module:ident :: $Type:ident, $name:literal; )*
+        }
+    ) => {
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug)]
+        pub enum $Enum<R: sparrow_math::Real> {
+            $(
+                #[doc = concat!("`", $name, "`")]
+                $Variant($module::$Type<R>),
+            )*
+        }
+
+        /// Names a registered model, without its parameters.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+        pub enum $Kind {
+            $(
+                #[doc = concat!("`", $name, "`")]
+                $Variant,
+            )*
+        }
+
+        impl $Kind {
+            /// Every registered model.
+            pub const ALL: &'static [$Kind] = &[$( $Kind::$Variant ),*];
+
+            /// The name in scenes and on the command line.
+            pub fn name(self) -> &'static str {
+                match self {
+                    $( $Kind::$Variant => $name, )*
+                }
+            }
+            /// The model of that name.
+            pub fn from_name(name: &str) -> Option<$Kind> {
+                match name {
+                    $( $name => Some($Kind::$Variant), )*
+                    _ => None,
+                }
+            }
+            /// The model's parameter table.
+            pub fn params(self) -> &'static [$crate::ParamInfo] {
+                match self {
+                    $( $Kind::$Variant => <$module::$Type<f32> as $crate::Model<f32>>::PARAMS, )*
+                }
+            }
+            /// Binds the parameters, which lie in the ranges of the table.
+            #[inline(always)]
+            pub fn bind<R: sparrow_math::Real>(self, params: &$crate::ParamBlock<R>) -> $Enum<R> {
+                match self {
+                    $( $Kind::$Variant => $Enum::$Variant($crate::Model::new(params)), )*
+                }
+            }
+        }
+
+        impl<R: sparrow_math::Real> $crate::$Trait<R> for $Enum<R> {
+            #[inline]
+            fn f(&self, wo: sparrow_math::LocalDir<R>, wi: sparrow_math::LocalDir<R>) -> sparrow_spectra::Spectrum<R> {
+                match self {
+                    $( $Enum::$Variant(m) => m.f(wo, wi), )*
+                }
+            }
+            #[inline]
+            fn pdf(&self, wo: sparrow_math::LocalDir<R>, wi: sparrow_math::LocalDir<R>) -> R {
+                match self {
+                    $( $Enum::$Variant(m) => m.pdf(wo, wi), )*
+                }
+            }
+            #[inline]
+            fn f_cos_pdf(
+                &self,
+                wo: sparrow_math::LocalDir<R>,
+                wi: sparrow_math::LocalDir<R>,
+            ) -> (sparrow_spectra::Spectrum<R>, R) {
+                match self {
+                    $( $Enum::$Variant(m) => m.f_cos_pdf(wo, wi), )*
+                }
+            }
+            #[inline]
+            fn sample(
+                &self,
+                wo: sparrow_math::LocalDir<R>,
+                u: $crate::Uniforms<R>,
+            ) -> $crate::BsdfSample<R> {
+                match self {
+                    $( $Enum::$Variant(m) => m.sample(wo, u), )*
+                }
+            }
+            #[inline]
+            fn has_smooth_lobe(&self) -> R::Mask {
+                match self {
+                    $( $Enum::$Variant(m) => m.has_smooth_lobe(), )*
+                }
+            }
+            #[inline]
+            fn regularized(self) -> Self {
+                match self {
+                    $( $Enum::$Variant(m) => $Enum::$Variant(m.regularized()), )*
+                }
+            }
+        }
+    };
+}
+pub(crate) use models;

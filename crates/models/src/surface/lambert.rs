@@ -1,0 +1,50 @@
+//! Lambert's diffuse reflection: the same radiance in every direction. [Lambert1760]
+
+use core::f64::consts::FRAC_1_PI;
+
+use sparrow_math::{LocalDir, Mask, Real, warp};
+use sparrow_spectra::Spectrum;
+
+use crate::{Bsdf, BsdfSample, Model, ParamBlock, ParamInfo, Uniforms};
+
+/// Diffuse reflection on the side it is seen from.
+#[derive(Clone, Copy, Debug)]
+pub struct Lambert<R> {
+    reflectance: Spectrum<R>,
+}
+
+impl<R: Real> Model<R> for Lambert<R> {
+    const PARAMS: &'static [ParamInfo] =
+        &[ParamInfo::albedo("reflectance").default(0.5).doc("Share of the light that is reflected.")];
+
+    #[inline(always)]
+    fn new(p: &ParamBlock<R>) -> Self {
+        Lambert { reflectance: p.spectra[0] }
+    }
+}
+
+impl<R: Real> Bsdf<R> for Lambert<R> {
+    #[inline(always)]
+    fn f(&self, wo: LocalDir<R>, wi: LocalDir<R>) -> Spectrum<R> {
+        (self.reflectance * R::of(FRAC_1_PI)).only_where(wo.same_side(wi))
+    }
+
+    #[inline(always)]
+    fn pdf(&self, wo: LocalDir<R>, wi: LocalDir<R>) -> R {
+        warp::cosine_hemisphere_pdf(wi.abs_cos_theta()).only_where(wo.same_side(wi))
+    }
+
+    #[inline(always)]
+    fn sample(&self, wo: LocalDir<R>, u: Uniforms<R>) -> BsdfSample<R> {
+        let wi = LocalDir::new(warp::cosine_hemisphere(u.dir)).flip_to(wo);
+        let density = warp::cosine_hemisphere_pdf(wi.abs_cos_theta());
+        BsdfSample {
+            wi,
+            weight: self.reflectance,
+            density,
+            eta: R::ONE,
+            delta: R::Mask::of(false),
+            valid: density.gt(R::ZERO) & wo.same_side(wi),
+        }
+    }
+}
