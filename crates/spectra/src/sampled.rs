@@ -70,7 +70,7 @@ impl Spectrum<f32> {
     /// Zero at every wavelength: the path carries nothing any more.
     #[inline]
     pub fn is_black(self) -> bool {
-        self.0 == [0.0; N_LAMBDA]
+        self.0.iter().all(|v| v.abs() <= 0.0)
     }
     /// No value is NaN or infinite.
     #[inline]

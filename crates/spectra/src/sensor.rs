@@ -1,0 +1,170 @@
+//! What the film measures: [`Sensor`].
+
+use crate::matrix::{self, Mat3};
+use crate::named::tables;
+use crate::{ColorSpace, DenseSpectrum, Spectrum, Wavelengths, cie, daylight};
+
+/// The sensors with data, by the names scenes use.
+const NAMES: [&str; 4] = ["cie1931", "canon_eos_5d_mkii", "nikon_d5100", "sigma_sd1_merrill"];
+
+/// A film sensor: three spectral responses, an exposure, and a matrix to the output colour space.
+///
+/// The sum over a path's samples of [`to_sensor_rgb`](Self::to_sensor_rgb), averaged, is the pixel in
+/// sensor RGB; [`output_rgb_from_sensor`](Self::output_rgb_from_sensor) takes it to the output space.
+#[derive(Clone, Debug)]
+pub struct Sensor {
+    bars: [DenseSpectrum; 3],
+    imaging_ratio: f32,
+    output_from_sensor: [[f32; 3]; 3],
+    xyz_from_sensor: [[f32; 3]; 3],
+}
+
+impl Sensor {
+    /// Sensors pbrt-v4 has measurements of and we have not; a scene that asks for one deserves a warning.
+    ///
+    /// For `canon_eos_5d_mkii` we have another laboratory's measurement than pbrt-v4.
+    pub const KNOWN_BUT_MISSING: [&'static str; 16] = [
+        "canon_eos_100d",
+        "canon_eos_1dx_mkii",
+        "canon_eos_200d",
+        "canon_eos_200d_mkii",
+        "canon_eos_5d",
+        "canon_eos_5d_mkiii",
+        "canon_eos_5d_mkiv",
+        "canon_eos_5ds",
+        "canon_eos_m",
+        "hasselblad_l1d_20c",
+        "nikon_d810",
+        "nikon_d850",
+        "sony_ilce_6400",
+        "sony_ilce_7m3",
+        "sony_ilce_7rm3",
+        "sony_ilce_9",
+    ];
+
+    /// The sensor of that name, or `None` where there is no data; see [`names`](Self::names).
+    ///
+    /// `imaging_ratio` multiplies what is measured: exposure time times ISO / 100, one by default.
+    /// `white_balance_kelvin` is the temperature of the CIE daylight that the image shows as white. Without
+    /// it `cie1931` does not balance, and cameras take 6500 K; both as in pbrt-v4.
+    ///
+    /// Source: [PBRT4, sec. 5.4.2].
+    pub fn new(
+        name: &str,
+        space: ColorSpace,
+        imaging_ratio: f32,
+        white_balance_kelvin: Option<f32>,
+    ) -> Option<Self> {
+        let white = white_balance_kelvin.filter(|&k| k > 0.0);
+        let (bars, to_xyz) = if name == "cie1931" {
+            let balance = white.map_or(matrix::IDENTITY, |k| adaptation(&daylight(k), space));
+            ([cie::x(), cie::y(), cie::z()].map(Clone::clone), balance)
+        } else {
+            let bars = camera(name)?;
+            let to_xyz = fitted_to_swatches(&bars, &daylight(white.unwrap_or(6500.0)), space)?;
+            (bars, to_xyz)
+        };
+        let to_output = matrix::product(&space.conversions().from_xyz, &to_xyz);
+        Some(Self {
+            bars,
+            imaging_ratio,
+            output_from_sensor: matrix::to_f32(&to_output),
+            xyz_from_sensor: matrix::to_f32(&to_xyz),
+        })
+    }
+
+    /// The names [`new`](Self::new) accepts.
+    pub fn names() -> &'static [&'static str] {
+        &NAMES
+    }
+
+    /// One path's contribution in sensor RGB: radiance over density, weighted by the responses.
+    ///
+    /// Wavelengths with zero density contribute nothing. There is no division by the integral of y-bar:
+    /// lights are scaled by [`photometric`](crate::photometric), so white of luminance one measures one.
+    #[inline]
+    pub fn to_sensor_rgb(&self, l: Spectrum<f32>, w: &Wavelengths) -> [f32; 3] {
+        let l = l.zip(w.pdf_spectrum(), |l, p| if p > 0.0 { l / p } else { 0.0 });
+        let [r, g, b] = &self.bars;
+        [r, g, b].map(|bar| self.imaging_ratio * (bar.at(w) * l).average())
+    }
+
+    /// Matrix from sensor RGB to linear RGB of the output space, rows first.
+    pub fn output_rgb_from_sensor(&self) -> [[f32; 3]; 3] {
+        self.output_from_sensor
+    }
+
+    /// Matrix from sensor RGB to XYZ, rows first.
+    pub fn xyz_from_sensor(&self) -> [[f32; 3]; 3] {
+        self.xyz_from_sensor
+    }
+
+    /// The spectral responses.
+    pub fn responses(&self) -> &[DenseSpectrum; 3] {
+        &self.bars
+    }
+
+    /// What multiplies every measurement.
+    pub fn imaging_ratio(&self) -> f32 {
+        self.imaging_ratio
+    }
+
+    /// What the sensor measures of a spectrum, by integration: the mean of
+    /// [`to_sensor_rgb`](Self::to_sensor_rgb) over all paths.
+    pub fn measure(&self, s: &DenseSpectrum) -> [f32; 3] {
+        let ratio = f64::from(self.imaging_ratio);
+        let [r, g, b] = &self.bars;
+        [r, g, b].map(|bar| (ratio * bar.inner_product(s)) as f32)
+    }
+}
+
+/// Bradford's adaptation of XYZ, from the white of `light` to that of `space` [Lindbloom2017].
+fn adaptation(light: &DenseSpectrum, space: ColorSpace) -> Mat3 {
+    const LMS_FROM_XYZ: Mat3 =
+        [[0.8951, 0.2664, -0.1614], [-0.7502, 1.7135, 0.0367], [0.0389, -0.0685, 1.0296]];
+    let lms = |[x, y]: [f64; 2]| matrix::apply(&LMS_FROM_XYZ, [x / y, 1.0, (1.0 - x - y) / y]);
+    let (from, to) = (lms(cie::chromaticity(cie::xyz_of(light))), lms(space.white()));
+    let gains = matrix::diagonal([0, 1, 2].map(|i| to[i] / from[i]));
+    matrix::inverse(&LMS_FROM_XYZ)
+        .map_or(matrix::IDENTITY, |back| matrix::product(&back, &matrix::product(&gains, &LMS_FROM_XYZ)))
+}
+
+/// The responses of a camera.
+fn camera(name: &str) -> Option<[DenseSpectrum; 3]> {
+    let all = tables(include_str!("data/cameras.txt"));
+    let find = |channel: &str| {
+        let found = all.iter().find(|t| t.0.strip_suffix(channel).is_some_and(|n| n == name));
+        found.map(|t| DenseSpectrum::from_samples(&t.1))
+    };
+    Some([find("_r")?, find("_g")?, find("_b")?])
+}
+
+/// The matrix from camera RGB to XYZ that fits the patches of a colour chart best, in least squares.
+///
+/// The camera sees the chart under `light`, the observer under the illuminant of `space`.
+fn fitted_to_swatches(bars: &[DenseSpectrum; 3], light: &DenseSpectrum, space: ColorSpace) -> Option<Mat3> {
+    let observer = [cie::x(), cie::y(), cie::z()];
+    let bars = [&bars[0], &bars[1], &bars[2]];
+    let gain = light.inner_product(observer[1]) / light.inner_product(bars[1]);
+    let mut seen_seen = [[0.0; 3]; 3];
+    let mut wanted_seen = [[0.0; 3]; 3];
+    for (_, samples) in tables(include_str!("data/swatches.txt")) {
+        let patch = DenseSpectrum::from_samples(&samples);
+        let seen = projected(&patch, light, bars);
+        let wanted = projected(&patch, space.illuminant(), observer);
+        for i in 0..3 {
+            for j in 0..3 {
+                seen_seen[i][j] += seen[i] * seen[j];
+                wanted_seen[i][j] += gain * wanted[i] * seen[j];
+            }
+        }
+    }
+    Some(matrix::product(&wanted_seen, &matrix::inverse(&seen_seen)?))
+}
+
+/// Three responses to a reflectance under a light, relative to the second response to the light itself.
+fn projected(patch: &DenseSpectrum, light: &DenseSpectrum, bars: [&DenseSpectrum; 3]) -> [f64; 3] {
+    let lit = patch.mul(light);
+    let white = bars[1].inner_product(light);
+    bars.map(|b| b.inner_product(&lit) / white)
+}
