@@ -1,0 +1,38 @@
+//! Uniform numbers for paths, indexed by pixel, sample and dimension.
+//!
+//! A [`Sampler`] is built once per render and is immutable; [`Sampler::start`] gives the `Copy` state
+//! of one pixel sample, whose numbers depend only on the configuration, the pixel, the sample and the
+//! dimension. Neither threads, tiles nor the order of calls matter, and a render may be cut into runs
+//! over ranges of samples. All numbers lie in `[0, 1 - 2^-24]`.
+//!
+//! | kind | points | dimensions | error over the image |
+//! | --- | --- | --- | --- |
+//! | `zsobol` | Sobol pairs, one Owen-scrambled sequence along a Morton curve | padded | blue noise |
+//! | `paddedsobol` | the same pairs, scrambled per pixel | padded | white noise |
+//! | `sobol` | one sequence over image and path | 128, then padded | visible patterns at few samples |
+//! | `halton` | one sequence over image and path | 128, then padded | the same |
+//! | `stratified` | a jittered grid, shuffled per dimension | padded | white noise |
+//! | `independent` | a hash | any | white noise |
+//! | `pmj02bn` | runs as `zsobol` and says so | padded | blue noise |
+//!
+//! *Padded* means that every request takes a fresh (0, 2)-sequence, shuffled against the others
+//! [Burley2020]; what lies beyond the table of a global sequence is padded too.
+//!
+//! Sample counts need not be powers of two. A power of two of consecutive samples, counted from a
+//! multiple of itself, is a (0, m, 2)-net in every pair of a padded kind; other counts are as well
+//! stratified as a prefix of the sequence can be.
+
+mod config;
+mod halton;
+mod hash;
+mod joe_kuo;
+mod pixel;
+mod scramble;
+mod sobol;
+mod stratified;
+#[cfg(test)]
+mod tests;
+mod zorder;
+
+pub use config::{Randomize, SamplerConfig, SamplerKind};
+pub use pixel::{PixelSampler, Sampler};

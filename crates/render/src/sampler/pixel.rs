@@ -1,0 +1,272 @@
+//! [`Sampler`] and the state of one pixel sample, [`PixelSampler`].
+
+use super::config::{Randomize, SamplerConfig, SamplerKind};
+use super::halton::{self, HaltonTables};
+use super::hash::{GOLDEN, join, mix, to_unit};
+use super::scramble::{padded_pair, padded_single, randomize};
+use super::sobol::{self, SobolTables};
+use super::{stratified, zorder};
+
+/// The dimension number under which [`PixelSampler::get_pixel_2d`] draws.
+const PIXEL_DIMENSION: u32 = u32::MAX;
+
+/// Path dimensions of the global sequences follow the two of the image plane.
+const PLANE: u32 = 2;
+
+/// Tables of the kinds, built once.
+enum Plan {
+    Independent,
+    Stratified { grid: [u32; 2], jitter: bool },
+    Padded,
+    ZOrder { log2_spp: u32 },
+    Sobol(SobolTables),
+    Halton(HaltonTables),
+}
+
+/// A point set over image, samples and dimensions; immutable, shared by all threads.
+pub struct Sampler {
+    config: SamplerConfig,
+    plan: Plan,
+    samples_per_pixel: u32,
+    /// Hash of the configuration's seed: nearby seeds have unrelated keys.
+    seed: u64,
+}
+
+impl Sampler {
+    /// Builds the tables: nothing for the padded kinds, well under a millisecond of work for the global ones.
+    pub fn new(config: &SamplerConfig) -> Sampler {
+        let seed = join(0x5eed, config.seed);
+        let mut samples_per_pixel = config.samples_per_pixel.max(1);
+        let plan = match config.kind {
+            SamplerKind::Independent => Plan::Independent,
+            SamplerKind::Stratified { x, y, jitter } => {
+                let grid = [x.clamp(1, 65_535), y.clamp(1, 65_535)];
+                samples_per_pixel = grid[0] * grid[1];
+                Plan::Stratified { grid, jitter }
+            }
+            SamplerKind::PaddedSobol => Plan::Padded,
+            SamplerKind::ZSobol | SamplerKind::Pmj02bn => {
+                let log2_spp = 32 - (samples_per_pixel - 1).leading_zeros();
+                Plan::ZOrder { log2_spp: log2_spp.min(31) }
+            }
+            SamplerKind::Sobol => Plan::Sobol(SobolTables::new(config.resolution)),
+            SamplerKind::Halton => Plan::Halton(HaltonTables::new(config.resolution, config.randomize, seed)),
+        };
+        Sampler { config: *config, plan, samples_per_pixel, seed }
+    }
+
+    /// Samples per pixel of the whole render: as configured, but `x * y` for the stratified kind.
+    pub fn samples_per_pixel(&self) -> u32 {
+        self.samples_per_pixel
+    }
+
+    /// What was built from.
+    pub fn config(&self) -> &SamplerConfig {
+        &self.config
+    }
+
+    /// Where the sampler departs from what was asked for, one sentence each, for the log.
+    pub fn notes(&self) -> Vec<String> {
+        let mut notes = Vec::new();
+        let (asked, spp) = (self.config.samples_per_pixel, self.samples_per_pixel);
+        let random = self.config.randomize;
+        match self.config.kind {
+            SamplerKind::Pmj02bn => notes.push(
+                "sampler pmj02bn runs as zsobol: the same stratification of every pair and the same blue-noise \
+                 error over the image, without pbrt's tables"
+                    .to_owned(),
+            ),
+            SamplerKind::Stratified { x, y, .. } if asked != spp => {
+                notes.push(format!("sampler stratified takes {x} x {y} strata: {spp} samples per pixel, not {asked}"));
+            }
+            SamplerKind::Halton if random == Randomize::FastOwen => {
+                notes.push("sampler halton has no fast Owen scrambling; digit-wise Owen scrambling is used".to_owned());
+            }
+            SamplerKind::Independent
+            | SamplerKind::Stratified { .. }
+            | SamplerKind::Halton
+            | SamplerKind::Sobol
+            | SamplerKind::PaddedSobol
+            | SamplerKind::ZSobol => {}
+        }
+        let base_two = matches!(self.plan, Plan::Padded | Plan::ZOrder { .. } | Plan::Sobol(_))
+            && !spp.is_power_of_two();
+        if base_two {
+            notes.push(format!(
+                "{spp} samples per pixel are rendered; a power of two would be better stratified"
+            ));
+        }
+        notes
+    }
+
+    /// State of one pixel sample, at dimension 0.
+    ///
+    /// `pixel` counts in the full image. Samples beyond the configured number are valid and independent of
+    /// the others as far as the kind allows.
+    #[inline]
+    pub fn start(&self, pixel: [u32; 2], sample: u32) -> PixelSampler<'_> {
+        let pixel_word = u64::from(pixel[0]) | (u64::from(pixel[1]) << 32);
+        let mut state = PixelSampler { sampler: self, key: 0, index: u64::from(sample), dimension: 0 };
+        match &self.plan {
+            Plan::ZOrder { log2_spp } => {
+                let (reversed, key) = zorder::place(pixel, sample, *log2_spp, self.seed);
+                state.index = u64::from(reversed);
+                state.key = key;
+                return state;
+            }
+            Plan::Padded => state.index = u64::from(sample.reverse_bits()),
+            Plan::Independent | Plan::Stratified { .. } => {}
+            Plan::Sobol(tables) => state.index = tables.index(pixel, sample),
+            Plan::Halton(tables) => state.index = tables.index(pixel, sample),
+        }
+        state.key = join(self.seed, pixel_word);
+        if matches!(self.plan, Plan::Independent) {
+            state.key = join(state.key, u64::from(sample));
+        }
+        state
+    }
+}
+
+/// The numbers of one pixel sample, in the order of the dimensions.
+///
+/// A number is a function of the configuration, the pixel, the sample and the dimension alone, so two
+/// stages of an integrator may each call [`Sampler::start`] and [`PixelSampler::set_dimension`].
+#[derive(Clone, Copy)]
+pub struct PixelSampler<'a> {
+    sampler: &'a Sampler,
+    /// Hash of the seed and whatever the kind scrambles by: pixel, sample, place on the curve.
+    key: u64,
+    /// Index of the point; bit-reversed for the padded kinds.
+    index: u64,
+    dimension: u32,
+}
+
+impl PixelSampler<'_> {
+    /// The next dimension to be drawn.
+    #[inline]
+    pub fn dimension(&self) -> u32 {
+        self.dimension
+    }
+
+    /// Goes to a dimension; a path may thus give each bounce a fixed range of them.
+    #[inline]
+    pub fn set_dimension(&mut self, dimension: u32) {
+        self.dimension = dimension;
+    }
+
+    /// A uniform number; takes one dimension.
+    #[inline]
+    pub fn get_1d(&mut self) -> f32 {
+        let d = self.dimension;
+        self.dimension = d.wrapping_add(1);
+        match &self.sampler.plan {
+            Plan::Padded | Plan::ZOrder { .. } => {
+                to_unit(padded_single(self.index as u32, self.key_of(d), self.sampler.config.randomize))
+            }
+            Plan::Independent => to_unit(self.key_of(d) as u32),
+            Plan::Stratified { grid, jitter } => {
+                stratified::single(grid[0] * grid[1], *jitter, self.index as u32, self.key_of(d))
+            }
+            Plan::Sobol(tables) if d < sobol::N_DIMENSIONS - PLANE => self.sobol_value(tables, d),
+            Plan::Halton(tables) if d < halton::N_DIMENSIONS - PLANE => tables.value(self.index, d + PLANE),
+            Plan::Sobol(_) | Plan::Halton(_) => {
+                to_unit(padded_single(self.sample_reversed(), self.key_of(d), self.padding()))
+            }
+        }
+    }
+
+    /// A uniform point of the unit square, stratified as a pair; takes two dimensions.
+    #[inline]
+    pub fn get_2d(&mut self) -> [f32; 2] {
+        let d = self.dimension;
+        self.dimension = d.wrapping_add(2);
+        self.pair(d)
+    }
+
+    /// The point in the pixel, for the filter: a pair outside the dimensions, the same at each call.
+    ///
+    /// For the global sequences it is the place of the point in the image plane.
+    #[inline]
+    pub fn get_pixel_2d(&mut self) -> [f32; 2] {
+        match &self.sampler.plan {
+            Plan::Sobol(tables) => {
+                let log2_side = tables.log2_side();
+                let [x, y] = tables.plane(self.index);
+                let how = self.sampler.config.randomize;
+                [self.below_pixel(x, 0, log2_side, how), self.below_pixel(y, 1, log2_side, how)]
+            }
+            Plan::Halton(tables) => tables.offset(self.index),
+            Plan::Independent | Plan::Stratified { .. } | Plan::Padded | Plan::ZOrder { .. } => {
+                self.pair(PIXEL_DIMENSION)
+            }
+        }
+    }
+
+    #[inline]
+    fn pair(&self, d: u32) -> [f32; 2] {
+        match &self.sampler.plan {
+            Plan::Padded | Plan::ZOrder { .. } => {
+                padded_pair(self.index as u32, self.key_of(d), self.sampler.config.randomize).map(to_unit)
+            }
+            Plan::Independent => {
+                let h = self.key_of(d);
+                [to_unit(h as u32), to_unit((h >> 32) as u32)]
+            }
+            Plan::Stratified { grid, jitter } => {
+                stratified::pair(*grid, *jitter, self.index as u32, self.key_of(d))
+            }
+            Plan::Sobol(tables) if d < sobol::N_DIMENSIONS - PLANE - 1 => {
+                [self.sobol_value(tables, d), self.sobol_value(tables, d + 1)]
+            }
+            Plan::Halton(tables) if d < halton::N_DIMENSIONS - PLANE - 1 => {
+                [tables.value(self.index, d + PLANE), tables.value(self.index, d + PLANE + 1)]
+            }
+            Plan::Sobol(_) | Plan::Halton(_) => {
+                padded_pair(self.sample_reversed(), self.key_of(d), self.padding()).map(to_unit)
+            }
+        }
+    }
+
+    /// Key of a dimension. A bijection of `key + dimension * odd`, so no two dimensions share one.
+    #[inline(always)]
+    fn key_of(&self, dimension: u32) -> u64 {
+        mix(self.key.wrapping_add(u64::from(dimension).wrapping_add(1).wrapping_mul(GOLDEN)))
+    }
+
+    #[inline]
+    fn sobol_value(&self, tables: &SobolTables, d: u32) -> f32 {
+        let v = tables.value(self.index, d + PLANE);
+        let seed = join(self.sampler.seed, u64::from(d + PLANE)) as u32;
+        to_unit(randomize(v.reverse_bits(), seed, self.sampler.config.randomize).reverse_bits())
+    }
+
+    /// Scrambles a plane coordinate below the bits that chose the pixel, and leaves those away.
+    ///
+    /// A nested scrambling that happens to keep the upper bits is still one. pbrt does not scramble
+    /// here, so its pixel positions do not follow the seed.
+    #[inline]
+    fn below_pixel(&self, v: u32, axis: u32, log2_side: u32, how: Randomize) -> f32 {
+        let seed = join(self.sampler.seed, u64::from(axis)) as u32;
+        to_unit(randomize(v.reverse_bits(), seed, how).reverse_bits() << log2_side)
+    }
+
+    /// The sample number of a global sequence's point, bit-reversed, for the padded dimensions beyond its table.
+    #[inline]
+    fn sample_reversed(&self) -> u32 {
+        let sample = match &self.sampler.plan {
+            Plan::Sobol(tables) => self.index >> (2 * tables.log2_side()),
+            Plan::Halton(tables) => self.index / tables.stride(),
+            Plan::Independent | Plan::Stratified { .. } | Plan::Padded | Plan::ZOrder { .. } => self.index,
+        };
+        (sample as u32).reverse_bits()
+    }
+
+    /// Randomisation of padded dimensions beyond a table, where plain points would repeat those of the first pixel.
+    #[inline]
+    fn padding(&self) -> Randomize {
+        match self.sampler.config.randomize {
+            Randomize::Owen => Randomize::Owen,
+            Randomize::None | Randomize::PermuteDigits | Randomize::FastOwen => Randomize::FastOwen,
+        }
+    }
+}

@@ -1,0 +1,105 @@
+//! Base-2 randomisations: nested uniform scrambling and shuffling, and the padded Sobol pair.
+
+use super::config::Randomize;
+use super::hash::{GOLDEN, mix};
+
+/// Nested uniform permutation of numbers whose *lowest* bit leads: bit `j` of the result is bit `j`
+/// of `x`, flipped or not by `seed` and the bits below `j`.
+///
+/// Applied to a bit-reversed number it is an Owen scrambling [Laine2011]; applied to a bit-reversed
+/// index it is a shuffle that keeps every aligned block of a power of two together [Burley2020].
+/// The constants are those of [Vegdahl2021], which pbrt-v4 uses as well.
+#[inline(always)]
+pub(crate) fn nested(mut x: u32, seed: u32) -> u32 {
+    x ^= x.wrapping_mul(0x3d20_adea);
+    x = x.wrapping_add(seed);
+    x = x.wrapping_mul((seed >> 16) | 1);
+    x ^= x.wrapping_mul(0x0552_6c56);
+    x ^ x.wrapping_mul(0x53a2_2864)
+}
+
+/// [`nested`] with an independent hash for every bit: thirty times slower, free of structure.
+fn nested_by_bits(x: u32, seed: u32) -> u32 {
+    let mut flips = 0;
+    for bit in 0..32u32 {
+        let below = x & ((1u32 << bit) - 1);
+        let h = mix(u64::from(below) ^ (u64::from(seed) << 32) ^ u64::from(bit).wrapping_mul(GOLDEN));
+        flips |= ((h >> 63) as u32) << bit;
+    }
+    x ^ flips
+}
+
+/// Randomises a number given with its lowest bit leading.
+#[inline(always)]
+pub(crate) fn randomize(x: u32, seed: u32, how: Randomize) -> u32 {
+    match how {
+        Randomize::FastOwen => nested(x, seed),
+        Randomize::None => x,
+        Randomize::PermuteDigits => x ^ seed,
+        Randomize::Owen => nested_by_bits(x, seed),
+    }
+}
+
+/// The second Sobol dimension, of an index, with the lowest bit of the result leading.
+///
+/// Its generator matrix is Pascal's triangle modulo 2: bit `j` is the sum of the index bits `k` that
+/// contain `j` as a bit set, which five exclusive ors add up.
+#[inline(always)]
+pub(crate) fn second_dimension(mut i: u32) -> u32 {
+    i ^= i >> 16;
+    i ^= (i & 0xff00_ff00) >> 8;
+    i ^= (i & 0xf0f0_f0f0) >> 4;
+    i ^= (i & 0xcccc_cccc) >> 2;
+    i ^ ((i & 0xaaaa_aaaa) >> 1)
+}
+
+/// First coordinate of the padded pair: [`padded_pair`] without the second.
+#[inline(always)]
+pub(crate) fn padded_single(reversed: u32, key: u64, how: Randomize) -> u32 {
+    let index = nested(reversed, key as u32).reverse_bits();
+    randomize(index, (key >> 32) as u32, how).reverse_bits()
+}
+
+/// A point of the (0, 2)-sequence, shuffled and scrambled by `key`, as two binary fractions.
+///
+/// `reversed` is the bit-reversed index. The shuffle goes from the top bit of the index down, so that
+/// aligned blocks of a power of two stay together; without it the dimensions would move in step.
+#[inline(always)]
+pub(crate) fn padded_pair(reversed: u32, key: u64, how: Randomize) -> [u32; 2] {
+    let index = nested(reversed, key as u32).reverse_bits();
+    let x = randomize(index, (key >> 32) as u32, how);
+    let y = randomize(second_dimension(index), (key.wrapping_mul(GOLDEN) >> 32) as u32, how);
+    [x.reverse_bits(), y.reverse_bits()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn second_dimension_matches_its_recurrence() {
+        // Direction numbers of the polynomial x + 1: v_j = v_{j-1} ^ (v_{j-1} >> 1). [JoeKuo2008]
+        let mut columns = [1u32 << 31; 32];
+        for j in 1..32 {
+            columns[j] = columns[j - 1] ^ (columns[j - 1] >> 1);
+        }
+        for i in [1u32, 2, 3, 77, 0x8000_0000, 0xdead_beef] {
+            let expected = (0..32).filter(|j| i >> j & 1 == 1).fold(0, |v, j| v ^ columns[j]);
+            assert_eq!(second_dimension(i).reverse_bits(), expected, "index {i}");
+        }
+    }
+
+    #[test]
+    fn nested_permutations_flip_by_lower_bits_only() {
+        for how in [Randomize::FastOwen, Randomize::Owen] {
+            for bit in 0..32u32 {
+                let x = 0x9234_5671u32.rotate_left(bit);
+                let low = (1u32 << bit) - 1;
+                let a = randomize(x, 0xabcd_1234, how);
+                let b = randomize(x ^ (1 << bit), 0xabcd_1234, how);
+                assert_eq!(a & low, b & low, "{how:?}: bit {bit} reaches down");
+                assert_ne!((a ^ b) >> bit & 1, 0, "{how:?}: bit {bit} is lost");
+            }
+        }
+    }
+}
