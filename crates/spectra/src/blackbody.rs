@@ -107,7 +107,7 @@ mod tests {
         for t in [3600.0, 4500.0, 5800.0, 7500.0] {
             let s = blackbody_normalized(t);
             let at = s.values().iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1)).unwrap().0;
-            let wien = 2.897_772_1e6 / t;
+            let wien = 2.897_772e6 / t;
             assert!((360.0 + at as f32 - wien).abs() <= 1.0, "{t} K: {} against {wien}", 360 + at);
             assert!((s.max_value() - 1.0).abs() < 1e-4, "{t} K: {}", s.max_value());
         }

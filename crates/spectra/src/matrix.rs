@@ -40,6 +40,7 @@ pub(crate) fn to_f32(m: &Mat3) -> [[f32; 3]; 3] {
 }
 
 #[cfg(test)]
+#[allow(clippy::float_cmp, reason = "these values are exact")]
 mod tests {
     use super::*;
 

@@ -141,3 +141,82 @@ pub(crate) fn tables(text: &str) -> Vec<(&str, Vec<(f32, f32)>)> {
     }
     out
 }
+
+#[cfg(test)]
+#[allow(clippy::float_cmp, reason = "parsing is exact")]
+mod tests {
+    use super::*;
+    use crate::xyz_of;
+
+    #[test]
+    fn every_name_is_answered_with_sane_values() {
+        for name in spectrum_names() {
+            let s = named_spectrum(name).unwrap_or_else(|| panic!("{name} is listed but missing"));
+            let (lo, hi) = s.values().iter().fold((f32::MAX, f32::MIN), |(a, b), &v| (a.min(v), b.max(v)));
+            let range = match name.split('-').collect::<Vec<_>>()[..] {
+                ["glass", _] => 1.45..2.1,
+                ["metal", "TiO2", "eta"] => 2.7..3.9,
+                ["metal", _, "eta"] => 0.1..3.0,
+                ["metal", _, "k"] => 0.0..9.0,
+                _ => 0.0..8.0,
+            };
+            assert!(range.contains(&lo) && range.contains(&hi), "{name}: {lo} to {hi}");
+        }
+        assert_eq!(library().len(), NAMES.len());
+        assert!(named_spectrum("metal-Xx-eta").is_none());
+    }
+
+    #[test]
+    fn copper_at_600_nm() {
+        // Between the table's 590.400818 and 604.800842 nm.
+        let (eta, k) = (named_spectrum("metal-Cu-eta").unwrap(), named_spectrum("metal-Cu-k").unwrap());
+        assert!((eta.value(600.0) - 0.390_17).abs() < 1e-4, "{}", eta.value(600.0));
+        assert!((k.value(600.0) - 2.943_49).abs() < 1e-4, "{}", k.value(600.0));
+    }
+
+    #[test]
+    fn glasses_have_their_catalogue_index() {
+        // n_d of Schott's catalogue, at 587.6 nm.
+        let catalogue = [
+            ("glass-BK7", 1.5168),
+            ("glass-BAF10", 1.67003),
+            ("glass-FK51A", 1.48656),
+            ("glass-LASF9", 1.85025),
+            ("glass-F5", 1.67271),
+            ("glass-F10", 1.72828),
+            ("glass-F11", 1.78472),
+        ];
+        for (name, n_d) in catalogue {
+            let s = named_spectrum(name).unwrap();
+            assert!((s.value(587.56) - n_d).abs() < 8e-5, "{name}: {}", s.value(587.56));
+            assert!(s.value(400.0) > s.value(700.0), "{name}: no dispersion");
+        }
+    }
+
+    #[test]
+    fn illuminants_have_unit_luminance_and_their_white() {
+        // Chromaticities of [CIE15, tables T.3 and T.8.1]; D60 as ACES has it.
+        let whites = [
+            ("stdillum-A", 0.44758, 0.40745),
+            ("stdillum-D50", 0.34567, 0.35851),
+            ("stdillum-D65", 0.31272, 0.32903),
+            ("illum-acesD60", 0.32168, 0.33767),
+            ("stdillum-F2", 0.3721, 0.3751),
+            ("stdillum-F7", 0.3129, 0.3292),
+            ("stdillum-F11", 0.3805, 0.3769),
+        ];
+        for (name, x, y) in whites {
+            let xyz = xyz_of(&named_spectrum(name).unwrap());
+            let c = cie::chromaticity(xyz);
+            assert!((xyz[1] - 1.0).abs() < 1e-5, "{name}: Y {}", xyz[1]);
+            assert!((c[0] - x).abs() < 3e-4 && (c[1] - y).abs() < 3e-4, "{name}: {c:?}");
+        }
+    }
+
+    #[test]
+    fn the_format_skips_comments_and_stops_at_nonsense() {
+        let t = tables("# note\n@a\n400 1  410 2\n420 3\n@b\nx 1\n");
+        assert_eq!(t, [("a", vec![(400.0, 1.0), (410.0, 2.0), (420.0, 3.0)]), ("b", vec![])]);
+        assert_eq!(tables(include_str!("data/swatches.txt")).len(), 24);
+    }
+}

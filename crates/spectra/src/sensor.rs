@@ -168,3 +168,83 @@ fn projected(patch: &DenseSpectrum, light: &DenseSpectrum, bars: [&DenseSpectrum
     let white = bars[1].inner_product(light);
     bars.map(|b| b.inner_product(&lit) / white)
 }
+
+#[cfg(test)]
+#[allow(clippy::float_cmp, reason = "equal sums of equal terms")]
+mod tests {
+    use super::*;
+    use crate::{named_spectrum, photometric};
+
+    fn output(sensor: &Sensor, light: &DenseSpectrum) -> [f32; 3] {
+        let raw = sensor.measure(&light.scaled(1.0 / photometric(light)));
+        sensor.output_rgb_from_sensor().map(|m| m[0] * raw[0] + m[1] * raw[1] + m[2] * raw[2])
+    }
+
+    fn off_white(rgb: [f32; 3]) -> f32 {
+        rgb.into_iter().map(|v| (v - 1.0).abs()).fold(0.0, f32::max)
+    }
+
+    #[test]
+    fn the_observer_shows_the_illuminant_as_white() {
+        for space in ColorSpace::ALL {
+            let sensor = Sensor::new("cie1931", space, 1.0, None).unwrap();
+            let rgb = output(&sensor, space.illuminant());
+            assert!(off_white(rgb) < 1e-5, "{space:?}: {rgb:?}");
+        }
+    }
+
+    #[test]
+    fn white_balance_shows_its_daylight_as_white() {
+        for kelvin in [3200.0, 5000.0, 6500.0, 9000.0] {
+            let sensor = Sensor::new("cie1931", ColorSpace::Srgb, 1.0, Some(kelvin)).unwrap();
+            let rgb = output(&sensor, &daylight(kelvin));
+            assert!(off_white(rgb) < 1e-4, "{kelvin}: {rgb:?}");
+        }
+        let plain = Sensor::new("cie1931", ColorSpace::Srgb, 1.0, Some(0.0)).unwrap();
+        assert!(off_white(output(&plain, &daylight(5000.0))) > 0.1);
+    }
+
+    #[test]
+    fn cameras_show_their_daylight_nearly_white() {
+        for name in Sensor::names().iter().filter(|n| **n != "cie1931") {
+            for kelvin in [None, Some(4500.0)] {
+                let sensor = Sensor::new(name, ColorSpace::Srgb, 1.0, kelvin).unwrap();
+                let rgb = output(&sensor, &daylight(kelvin.unwrap_or(6500.0)));
+                // The matrix is fitted to 24 patches, not to white alone.
+                assert!(off_white(rgb) < 0.04, "{name} {kelvin:?}: {rgb:?}");
+            }
+        }
+        for name in Sensor::KNOWN_BUT_MISSING {
+            assert!(Sensor::new(name, ColorSpace::Srgb, 1.0, None).is_none(), "{name} has data now");
+        }
+    }
+
+    #[test]
+    fn samples_average_to_the_integral() {
+        let light = named_spectrum("stdillum-A").unwrap();
+        let sensor = Sensor::new("cie1931", ColorSpace::Srgb, 2.0, None).unwrap();
+        let n = 4000;
+        for sample in [Wavelengths::sample_visible, Wavelengths::sample_uniform] {
+            let mut sum = [0.0f64; 3];
+            for i in 0..n {
+                let w = sample((i as f32 + 0.5) / n as f32);
+                for (s, v) in sum.iter_mut().zip(sensor.to_sensor_rgb(light.at(&w), &w)) {
+                    *s += f64::from(v) / f64::from(n);
+                }
+            }
+            for (s, m) in sum.into_iter().zip(sensor.measure(&light)) {
+                assert!((s / f64::from(m) - 1.0).abs() < 1e-3, "{s} against {m}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_given_up_wavelength_counts_for_nothing() {
+        let sensor = Sensor::new("cie1931", ColorSpace::Srgb, 1.0, None).unwrap();
+        let mut w = Wavelengths::sample_visible(0.4);
+        w.terminate_secondary();
+        let hero_only = sensor.to_sensor_rgb(Spectrum([1.0, 7.0, 7.0, 7.0]), &w);
+        assert_eq!(hero_only, sensor.to_sensor_rgb(Spectrum([1.0, 0.0, 0.0, 0.0]), &w));
+        assert!(hero_only[1] > 0.0);
+    }
+}

@@ -80,7 +80,8 @@ impl Wavelengths {
 fn visible_lambda(u: f32) -> f32 {
     let x = 0.856_910_6 - 1.827_502 * u;
     let atanh = 0.5 * Real::ln((1.0 + x) / (1.0 - x));
-    538.0 - 138.888_9 * atanh
+    // The constants are rounded: the ends would fall a little outside.
+    (538.0 - 138.888_9 * atanh).clamp(LAMBDA_MIN, LAMBDA_MAX)
 }
 
 /// Density of [`Wavelengths::sample_visible`] at `lambda` nm, in 1/nm; zero outside 360..830 nm.
