@@ -1,15 +1,23 @@
 //! [`Geometry`]: shapes with a hierarchy over them.
 
+use std::time::Instant;
+
+use rayon::prelude::*;
 use sparrow_math::{Aabb, Vec3};
 
+use crate::bvh::{Bvh, MAX_PRIMS, Others, PrimRef, RawHit};
+use crate::patch::Patches;
 use crate::point::{ShapeSample, SurfacePoint};
+use crate::quadric::Quadric;
 use crate::ray::{Hit, Ray};
+use crate::sample::per_steradian;
 use crate::shape::{Shape, ShapeInstance};
+use crate::triangle::Triangles;
 
 /// What building cost and gave.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct BuildStats {
-    /// Primitives in the hierarchy.
+    /// Primitives that can be hit.
     pub primitives: usize,
     /// Primitives left out: without area, with coordinates that are not finite, or with vertices that do not exist.
     pub dropped: usize,
@@ -21,59 +29,199 @@ pub struct BuildStats {
     pub build_seconds: f64,
 }
 
+/// A shape ready to be asked.
+#[derive(Debug)]
+enum Body {
+    Triangles(Triangles),
+    Patches(Patches),
+    /// `None` where nothing of it can be hit.
+    Quadric(Option<Box<Quadric>>),
+}
+
+impl Body {
+    fn new(s: ShapeInstance) -> Body {
+        match s.shape {
+            Shape::Triangles(m) => Body::Triangles(Triangles::new(m, s.flip_normal)),
+            Shape::Patches(m) => Body::Patches(Patches::new(m, s.flip_normal)),
+            quadric @ (Shape::Sphere { .. } | Shape::Disk { .. } | Shape::Cylinder { .. }) => {
+                Body::Quadric(Quadric::new(&quadric, &s.to_world, s.flip_normal).map(Box::new))
+            }
+        }
+    }
+    fn n_prims(&self) -> usize {
+        match self {
+            Body::Triangles(m) => m.len(),
+            Body::Patches(m) => m.len(),
+            Body::Quadric(_) => 1,
+        }
+    }
+    /// Numbers the tree sets aside.
+    fn n_ids(&self) -> usize {
+        match self {
+            Body::Triangles(m) => m.len(),
+            Body::Patches(m) => 2 * m.len(),
+            Body::Quadric(_) => 1,
+        }
+    }
+    fn bytes(&self) -> usize {
+        match self {
+            Body::Triangles(m) => m.bytes(),
+            Body::Patches(m) => m.bytes(),
+            Body::Quadric(_) => size_of::<Quadric>(),
+        }
+    }
+    /// What the tree holds of this shape, numbered from `first`; and how many of its primitives that leaves out.
+    fn refs(&self, first: u32, out: &mut Vec<PrimRef>) -> usize {
+        let before = out.len();
+        match self {
+            Body::Triangles(m) => {
+                let one = |i: u32| m.bounds(i).map(|b| PrimRef::new(first + i, b, false));
+                out.par_extend((0..m.len() as u32).into_par_iter().filter_map(one));
+                m.len() - (out.len() - before)
+            }
+            Body::Patches(m) => {
+                let mut dropped = 0;
+                for i in 0..m.len() as u32 {
+                    let parts = m.parts(i);
+                    dropped += usize::from(parts.is_empty());
+                    out.extend(parts.iter().map(|&(id, b, other)| PrimRef::new(first + id, b, other)));
+                }
+                dropped
+            }
+            Body::Quadric(Some(q)) => {
+                out.push(PrimRef::new(first, q.bounds(), true));
+                0
+            }
+            Body::Quadric(None) => 1,
+        }
+    }
+}
+
 /// Shapes with a hierarchy over them. Immutable; shared freely between threads.
 #[derive(Debug)]
 pub struct Geometry {
-    shapes: Vec<ShapeInstance>,
-    bounds: Aabb,
+    bodies: Bodies,
+    bvh: Bvh,
     stats: BuildStats,
+}
+
+/// The shapes, and which numbers the tree gave to each.
+#[derive(Debug)]
+struct Bodies {
+    bodies: Vec<Body>,
+    /// The first number of each shape.
+    first: Vec<u32>,
+}
+
+impl Bodies {
+    /// The shape that a number of the tree belongs to, and the number within it.
+    #[inline]
+    fn locate(&self, id: u32) -> (u32, u32) {
+        let shape = self.first.partition_point(|&f| f <= id) - 1;
+        (shape as u32, id - self.first[shape])
+    }
+    fn corners(&self, id: u32) -> [[f32; 3]; 3] {
+        let (shape, local) = self.locate(id);
+        match &self.bodies[shape as usize] {
+            Body::Triangles(m) => m.raw_corners(local),
+            Body::Patches(m) => m.triangle(local),
+            Body::Quadric(_) => [[f32::NAN; 3]; 3],
+        }
+    }
+    /// What the world knows of a point the tree found.
+    #[inline]
+    fn to_hit(&self, ray: &Ray, raw: &RawHit) -> Hit {
+        let (shape, local) = self.locate(raw.id);
+        let (prim, [u, v]) = match &self.bodies[shape as usize] {
+            Body::Triangles(_) => (local, [raw.u, raw.v]),
+            Body::Patches(m) => (local / 2, m.parameters(local, raw)),
+            Body::Quadric(q) => (0, q.as_ref().map_or([0.0; 2], |q| q.parameters(ray, raw.t))),
+        };
+        Hit { t: raw.t, shape, prim, u, v }
+    }
+}
+
+impl Others for Bodies {
+    fn hit(&self, id: u32, ray: &Ray, t_max: f32, found: &mut impl FnMut(RawHit) -> f32) -> f32 {
+        let (shape, local) = self.locate(id);
+        match &self.bodies[shape as usize] {
+            Body::Patches(m) => m.hit(id, local, ray, t_max, found),
+            Body::Quadric(Some(q)) => q.hit(id, ray, t_max, found),
+            Body::Triangles(_) | Body::Quadric(None) => t_max,
+        }
+    }
 }
 
 impl Geometry {
     /// Builds the hierarchy, in parallel on the current rayon pool; the result does not depend on the number of threads.
     ///
     /// Primitives that cannot be hit (zero area, coordinates that are not finite, indices without a vertex)
-    /// are left out and counted in [`BuildStats::dropped`]; numbering does not change.
+    /// are left out and counted in [`BuildStats::dropped`]; numbering does not change. So are those beyond the
+    /// first 2^28. Of maps to world space only the affine part is used.
     pub fn build(shapes: Vec<ShapeInstance>) -> Geometry {
-        Geometry { shapes, bounds: Aabb::EMPTY, stats: BuildStats::default() }
+        let start = Instant::now();
+        let bodies: Vec<Body> = shapes.into_iter().map(Body::new).collect();
+        let n_prims: usize = bodies.iter().map(Body::n_prims).sum();
+        let (mut first, mut refs, mut dropped, mut next) = (Vec::new(), Vec::new(), 0, 0);
+        for body in &bodies {
+            first.push(next as u32);
+            if next + body.n_ids() <= MAX_PRIMS {
+                dropped += body.refs(next as u32, &mut refs);
+                next += body.n_ids();
+            } else {
+                dropped += body.n_prims();
+            }
+        }
+        let bodies = Bodies { bodies, first };
+        let bvh = Bvh::build(refs, |id| bodies.corners(id));
+        let bytes = bvh.bytes() + bodies.bodies.iter().map(Body::bytes).sum::<usize>();
+        let stats = BuildStats {
+            primitives: n_prims - dropped,
+            dropped,
+            nodes: bvh.n_nodes(),
+            bytes,
+            build_seconds: start.elapsed().as_secs_f64(),
+        };
+        Geometry { bodies, bvh, stats }
     }
+
     /// The nearest point of the ray on any shape.
-    pub fn intersect(&self, _ray: &Ray) -> Option<Hit> {
-        None
+    pub fn intersect(&self, ray: &Ray) -> Option<Hit> {
+        let raw = self.bvh.hit::<false>(ray, &self.bodies, |_| true)?;
+        Some(self.bodies.to_hit(ray, &raw))
     }
     /// Something lies on the ray.
-    pub fn occluded(&self, _ray: &Ray) -> bool {
-        false
+    pub fn occluded(&self, ray: &Ray) -> bool {
+        self.bvh.hit::<true>(ray, &self.bodies, |_| true).is_some()
     }
     /// The nearest point of the ray that `accept` does not reject.
-    pub fn intersect_where(&self, _ray: &Ray, _accept: impl Fn(&Hit) -> bool) -> Option<Hit> {
-        None
+    pub fn intersect_where(&self, ray: &Ray, accept: impl Fn(&Hit) -> bool) -> Option<Hit> {
+        let accept = |raw: &RawHit| accept(&self.bodies.to_hit(ray, raw));
+        let raw = self.bvh.hit::<false>(ray, &self.bodies, accept)?;
+        Some(self.bodies.to_hit(ray, &raw))
     }
     /// Something that `accept` does not reject lies on the ray.
-    pub fn occluded_where(&self, _ray: &Ray, _accept: impl Fn(&Hit) -> bool) -> bool {
-        false
+    pub fn occluded_where(&self, ray: &Ray, accept: impl Fn(&Hit) -> bool) -> bool {
+        let accept = |raw: &RawHit| accept(&self.bodies.to_hit(ray, raw));
+        self.bvh.hit::<true>(ray, &self.bodies, accept).is_some()
     }
     /// The surface at `hit`, which this geometry gave for `ray`.
+    ///
+    /// Panics for a hit of another geometry, or returns nonsense.
     pub fn surface(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
-        let z = Vec3::splat(0.0);
-        SurfacePoint {
-            p: ray.at(hit.t),
-            p_error: z,
-            ng: z,
-            ns: z,
-            dpdu: z,
-            dpdv: z,
-            dndu: z,
-            dndv: z,
-            uv: [0.0; 2],
-            tangent: z,
-            shape: hit.shape,
-            prim: hit.prim,
+        match &self.bodies.bodies[hit.shape as usize] {
+            Body::Triangles(m) => m.surface(hit),
+            Body::Patches(m) => m.surface(hit),
+            Body::Quadric(q) => match q {
+                Some(q) => q.surface(ray, hit),
+                None => SurfacePoint::nowhere(ray, hit),
+            },
         }
     }
+
     /// Box around everything that can be hit.
     pub fn bounds(&self) -> Aabb {
-        self.bounds
+        self.bvh.bounds()
     }
     /// What building cost and gave.
     pub fn stats(&self) -> BuildStats {
@@ -81,45 +229,66 @@ impl Geometry {
     }
     /// Number of shapes.
     pub fn n_shapes(&self) -> usize {
-        self.shapes.len()
+        self.bodies.bodies.len()
     }
-    /// Number of primitives of a shape.
+    /// Number of primitives of a shape, the dropped ones included; 0 for a shape that does not exist.
     pub fn n_prims(&self, shape: usize) -> usize {
-        match &self.shapes[shape].shape {
-            Shape::Triangles(m) => m.indices.len(),
-            Shape::Patches(m) => m.indices.len(),
-            Shape::Sphere { .. } | Shape::Disk { .. } | Shape::Cylinder { .. } => 1,
-        }
+        self.bodies.bodies.get(shape).map_or(0, Body::n_prims)
+    }
+
+    fn body(&self, shape: u32) -> Option<&Body> {
+        self.bodies.bodies.get(shape as usize)
     }
     /// World-space area of a primitive; zero for one that was dropped.
-    pub fn area(&self, _shape: u32, _prim: u32) -> f32 {
-        0.0
+    ///
+    /// Exact for triangles, flat patches, and quadrics that are moved, turned and scaled evenly; else by a fixed
+    /// quadrature, to about three digits.
+    pub fn area(&self, shape: u32, prim: u32) -> f32 {
+        match self.body(shape) {
+            Some(Body::Triangles(m)) => m.area(prim),
+            Some(Body::Patches(m)) => m.area(prim),
+            Some(Body::Quadric(Some(q))) => q.area(),
+            Some(Body::Quadric(None)) | None => 0.0,
+        }
     }
-    /// Draws a point of a primitive, by solid angle as seen from `from`. `None` where that density does not exist.
-    pub fn sample_from(
-        &self,
-        _shape: u32,
-        _prim: u32,
-        _from: Vec3<f32>,
-        _u: [f32; 2],
-    ) -> Option<ShapeSample> {
-        None
+    /// Draws a point of a primitive, with a density over the directions in which it is seen from `from`: uniform for
+    /// triangles, rectangles and whole spheres of sensible size, else uniform over the surface. `None` where such a
+    /// density does not exist: seen edge-on, or dropped.
+    pub fn sample_from(&self, shape: u32, prim: u32, from: Vec3<f32>, u: [f32; 2]) -> Option<ShapeSample> {
+        match self.body(shape)? {
+            Body::Triangles(m) => m.sample_from(prim, from, u),
+            Body::Patches(m) => m.sample_from(prim, from, u),
+            Body::Quadric(q) => q.as_ref()?.sample_from(from, u),
+        }
     }
     /// Density per steradian with which [`sample_from`](Self::sample_from) draws the direction `wi`, which met the
     /// primitive at `hit_p` with geometric normal `hit_n`.
     pub fn pdf_from(
         &self,
-        _shape: u32,
-        _prim: u32,
-        _from: Vec3<f32>,
-        _wi: Vec3<f32>,
-        _hit_p: Vec3<f32>,
-        _hit_n: Vec3<f32>,
+        shape: u32,
+        prim: u32,
+        from: Vec3<f32>,
+        wi: Vec3<f32>,
+        hit_p: Vec3<f32>,
+        hit_n: Vec3<f32>,
     ) -> f32 {
-        0.0
+        // The direction follows from the two points; it is asked for because a density warped by it will need it.
+        let _ = wi;
+        let per_area = |pdf: f64| per_steradian(pdf, from, hit_p, hit_n).unwrap_or(0.0);
+        match self.body(shape) {
+            Some(Body::Triangles(m)) => m.pdf_from(prim, from, per_area),
+            Some(Body::Patches(m)) => m.pdf_from(prim, from, hit_p, per_area),
+            Some(Body::Quadric(Some(q))) => q.pdf_from(from, hit_n, per_area),
+            Some(Body::Quadric(None)) | None => 0.0,
+        }
     }
-    /// Draws a point of a primitive, uniformly by area where that is possible in closed form.
-    pub fn sample_area(&self, _shape: u32, _prim: u32, _u: [f32; 2]) -> Option<ShapeSample> {
-        None
+    /// Draws a point of a primitive, with a density per area: uniform for triangles, parallelograms and evenly
+    /// stretched quadrics, close to uniform for others.
+    pub fn sample_area(&self, shape: u32, prim: u32, u: [f32; 2]) -> Option<ShapeSample> {
+        match self.body(shape)? {
+            Body::Triangles(m) => m.sample_area(prim, u),
+            Body::Patches(m) => m.sample_area(prim, u),
+            Body::Quadric(q) => q.as_ref()?.sample_area(u),
+        }
     }
 }

@@ -5,10 +5,15 @@
 //! Everything is in world space; parametrisations, tangents and the side of normals mean what they
 //! mean in pbrt-v4.
 
+mod bvh;
 mod geometry;
+mod patch;
 mod point;
+mod quadric;
 mod ray;
+mod sample;
 mod shape;
+mod triangle;
 
 pub use geometry::{BuildStats, Geometry};
 pub use point::{ShapeSample, SurfacePoint};

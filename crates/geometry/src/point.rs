@@ -2,7 +2,7 @@
 
 use sparrow_math::Vec3;
 
-use crate::ray::Ray;
+use crate::ray::{Hit, Ray};
 
 /// How far from the target a shadow ray ends, relative to its length; pbrt-v4's value.
 const SHADOW_GAP: f32 = 1e-4;
@@ -53,6 +53,24 @@ pub(crate) fn offset_point(p: Vec3<f32>, p_error: Vec3<f32>, n: Vec3<f32>, w: Ve
 }
 
 impl SurfacePoint {
+    /// What a hit that this geometry cannot have given is answered with.
+    pub(crate) fn nowhere(ray: &Ray, hit: &Hit) -> SurfacePoint {
+        let (zero, back) = (Vec3::splat(0.0), (-ray.d).normalized());
+        SurfacePoint {
+            p: ray.at(hit.t),
+            p_error: zero,
+            ng: back,
+            ns: back,
+            dpdu: zero,
+            dpdv: zero,
+            dndu: zero,
+            dndv: zero,
+            uv: [hit.u, hit.v],
+            tangent: zero,
+            shape: hit.shape,
+            prim: hit.prim,
+        }
+    }
     /// The ray that leaves in direction `d` and does not meet its own surface again through rounding.
     pub fn spawn(&self, d: Vec3<f32>) -> Ray {
         Ray::new(offset_point(self.p, self.p_error, self.ng, d), d)

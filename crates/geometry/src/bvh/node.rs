@@ -1,0 +1,122 @@
+//! The tree's parts: [`Node`], its [`Child`]ren, and the ray as the tests want it.
+
+use sparrow_math::Vec3;
+
+use super::lanes::F4;
+use crate::ray::Ray;
+
+/// Where a child lies: an inner node, four triangles, or up to four other primitives.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Child(pub(crate) u32);
+
+/// Bit that tells leaves from nodes.
+const LEAF: u32 = 1 << 31;
+/// Bit that tells leaves of other primitives from leaves of triangles.
+const OTHER: u32 = 1 << 30;
+/// The rest: a number of a node or block.
+const INDEX: u32 = OTHER - 1;
+
+impl Child {
+    /// No child. Its box is never hit.
+    pub(crate) const NONE: Child = Child(u32::MAX);
+
+    pub(crate) fn node(i: usize) -> Child {
+        Child(i as u32)
+    }
+    pub(crate) fn leaf(i: usize, other: bool) -> Child {
+        Child(LEAF | if other { OTHER } else { 0 } | i as u32)
+    }
+    /// The same child, once `by` nodes were put before the nodes it counts among.
+    pub(crate) fn moved(self, by: usize) -> Child {
+        if self.is_leaf() { self } else { Child::node(self.index() + by) }
+    }
+    #[inline(always)]
+    pub(crate) fn is_leaf(self) -> bool {
+        self.0 & LEAF != 0
+    }
+    #[inline(always)]
+    pub(crate) fn is_other(self) -> bool {
+        self.0 & OTHER != 0
+    }
+    #[inline(always)]
+    pub(crate) fn index(self) -> usize {
+        (self.0 & INDEX) as usize
+    }
+}
+
+/// Four children with their boxes, side by side.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(64))]
+pub(crate) struct Node {
+    /// `bounds[axis][0]` the lower, `[1]` the upper faces of the four boxes.
+    pub(crate) bounds: [[F4; 2]; 3],
+    /// The children; unused ones come last.
+    pub(crate) child: [Child; 4],
+}
+
+impl Node {
+    /// A node whose four boxes are never hit.
+    pub(crate) const EMPTY: Node =
+        Node { bounds: [[F4([f32::INFINITY; 4]), F4([f32::NEG_INFINITY; 4])]; 3], child: [Child::NONE; 4] };
+
+    /// The boxes met between 0 and `t_max`, one bit each, and where the ray enters them.
+    #[inline(always)]
+    pub(crate) fn hit(&self, r: &RayData, t_max: f32) -> (u32, F4) {
+        let near = |a: usize| (self.bounds[a][r.neg[a] & 1] - F4::splat(r.o[a])) * F4::splat(r.inv_near[a]);
+        let far =
+            |a: usize| (self.bounds[a][1 - (r.neg[a] & 1)] - F4::splat(r.o[a])) * F4::splat(r.inv_far[a]);
+        let t0 = near(0).max(near(1)).max(near(2)).max(F4::splat(0.0));
+        let t1 = far(0).min(far(1)).min(far(2)).min(F4::splat(t_max));
+        (t0.le(t1), t0)
+    }
+}
+
+/// A ray with what the tests need of it, worked out once.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct RayData {
+    pub(crate) o: [f32; 3],
+    /// 1 where the direction is negative: the upper face is the near one.
+    neg: [usize; 3],
+    /// Reciprocal direction, drawn in for entries and stretched for exits.
+    ///
+    /// By eight units in the last place: more than the box test and the shear of the triangle test can err
+    /// together, so that no ray slips between two boxes that touch. [Ize2013; Woop2013, section 4]
+    inv_near: [f32; 3],
+    inv_far: [f32; 3],
+    /// The axes, permuted: the last is the one along which the direction is longest.
+    pub(crate) k: [usize; 3],
+    /// Shear and scale that bring the direction to (0, 0, 1). [Woop2013, section 3.2]
+    pub(crate) s: [f32; 3],
+}
+
+impl RayData {
+    #[inline(always)]
+    pub(crate) fn new(ray: &Ray) -> RayData {
+        let d: Vec3<f32> = ray.d;
+        let a = d.abs();
+        let kz = if a.x > a.y {
+            if a.x > a.z { 0 } else { 2 }
+        } else if a.y > a.z {
+            1
+        } else {
+            2
+        };
+        let (mut kx, mut ky) = ([1, 2, 0][kz], [2, 0, 1][kz]);
+        if d[kz] < 0.0 {
+            core::mem::swap(&mut kx, &mut ky);
+        }
+        let sz = 1.0 / d[kz];
+        // A finite stand-in for 1/0: infinity times a distance of zero is not a number.
+        let inv = |d: f32| if d.abs() < 1e-30 { 1e30_f32.copysign(d) } else { 1.0 / d };
+        let inv = [inv(d.x), inv(d.y), inv(d.z)];
+        const PAD: f32 = 8.0 * f32::EPSILON;
+        RayData {
+            o: [ray.o.x, ray.o.y, ray.o.z],
+            neg: inv.map(|v| usize::from(v < 0.0)),
+            inv_near: inv.map(|v| v * (1.0 - PAD)),
+            inv_far: inv.map(|v| v * (1.0 + PAD)),
+            k: [kx, ky, kz],
+            s: [d[kx] * sz, d[ky] * sz, sz],
+        }
+    }
+}

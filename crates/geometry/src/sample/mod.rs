@@ -1,0 +1,30 @@
+//! Drawing directions to shapes.
+
+mod rectangle;
+mod triangle;
+
+pub(crate) use rectangle::SphericalRectangle;
+pub(crate) use triangle::SphericalTriangle;
+
+use sparrow_math::Vec3;
+
+use crate::point::ShapeSample;
+
+/// A density per area at a point, as one per steradian seen from elsewhere; `None` where that is infinite.
+pub(crate) fn per_steradian(pdf: f64, from: Vec3<f32>, p: Vec3<f32>, n: Vec3<f32>) -> Option<f32> {
+    let d = p.to_f64() - from.to_f64();
+    let len2 = d.length2();
+    let pdf = (pdf * len2 * len2.sqrt() / d.dot(n.to_f64()).abs()) as f32;
+    (len2 > 0.0 && pdf.is_finite()).then_some(pdf)
+}
+
+/// A sample drawn by area, as seen from a point; `None` where it is seen edge-on or lies at that point.
+pub(crate) fn seen_from(s: ShapeSample, from: Vec3<f32>) -> Option<ShapeSample> {
+    let d = s.p.to_f64() - from.to_f64();
+    let distance = d.length();
+    if !(distance > 0.0 && distance.is_finite()) {
+        return None;
+    }
+    let pdf = per_steradian(f64::from(s.pdf), from, s.p, s.n)?;
+    Some(ShapeSample { wi: (d / distance).to_f32(), distance: distance as f32, pdf, ..s })
+}
