@@ -131,6 +131,7 @@ mod tests {
                 cosine_hemisphere(u).z / f64::from(n * n)
             })
             .sum();
-        assert!((mean - 2.0 / 3.0).abs() < 1e-4, "{mean}");
+        // The midpoint rule loses half a power at the rim, where the height has a root.
+        assert!((mean - 2.0 / 3.0).abs() < 1e-3, "{mean}");
     }
 }

@@ -1,1 +1,33 @@
-//! render
+//! The renderer of Sparrow: a scene description in, a film out.
+//!
+//! ```text
+//! SceneDesc ──compile──▶ Scene ──render──▶ Film
+//! ```
+//!
+//! [`compile()`] turns a description into an immutable [`Scene`]; [`RenderPlan`] holds how the picture is taken; [`render()`]
+//! distributes tiles over threads. The light transport itself is one page: [`PathIntegrator::radiance`].
+
+pub mod camera;
+pub mod compile;
+pub mod distribution;
+pub mod film;
+pub mod filter;
+mod integrator;
+pub mod light;
+mod material;
+mod mis;
+mod plan;
+mod render;
+pub mod sampler;
+mod scatter;
+mod scene;
+mod spectrum;
+mod texture;
+
+pub use compile::{CompileError, Compiled, compile};
+pub use integrator::{PathIntegrator, RayCounts};
+pub use mis::Mis;
+pub use plan::{FilmSensor, RenderPlan};
+pub use render::{Progress, RenderError, RenderOptions, RenderStats, render};
+pub use scatter::{Density, Scatter, ScatterSample};
+pub use scene::{LastVertex, Scene};

@@ -293,6 +293,7 @@ pub struct ImageMap {
 
 /// A scalar texture.
 #[derive(Clone, Debug)]
+#[allow(clippy::large_enum_variant, reason = "a scene holds few textures; mappings carry a transform")]
 pub enum FloatTexture {
     /// The same everywhere.
     Constant(f32),
@@ -324,6 +325,7 @@ pub enum FloatTexture {
 
 /// A spectral texture.
 #[derive(Clone, Debug)]
+#[allow(clippy::large_enum_variant, reason = "a scene holds few textures; mappings carry a transform")]
 pub enum SpectrumTexture {
     /// The same everywhere.
     Constant(SpectrumDesc),

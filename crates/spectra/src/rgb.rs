@@ -11,7 +11,7 @@ pub use table::table_bytes;
 use crate::{ColorSpace, DenseSpectrum, Sigmoid, Spectrum, Wavelengths};
 
 /// What an RGB value of a scene means; decides range and scale of its spectrum.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum RgbRole {
     /// A reflectance: RGB within [0, 1] (clamped), spectrum within [0, 1].
     Albedo,

@@ -5,7 +5,7 @@
 //!
 //! Sources: [Walter2007] for the family, [Heitz2014] for masking, [Heitz2018] and [DupuyBenyoub2023] for sampling.
 
-use sparrow_math::{LocalDir, Mask, Real};
+use sparrow_math::{LocalDir, Real, Vec3, vec3};
 use sparrow_spectra::Spectrum;
 
 use crate::{Bsdf, BsdfSample, Model, ParamBlock, ParamInfo, Uniforms, fresnel, ggx::Ggx};
@@ -63,24 +63,21 @@ impl<R: Real> Bsdf<R> for Conductor<R> {
         (self.ggx.visible_over_cos(wo, m) * R::of(0.25)).only_where(lit)
     }
 
+    #[allow(non_snake_case, reason = "names of the formula")]
     #[inline(always)]
     fn sample(&self, wo: LocalDir<R>, u: Uniforms<R>) -> BsdfSample<R> {
         let delta = self.ggx.is_smooth();
         // Sampled above; a metal looks the same from behind.
-        let up = LocalDir::new(sparrow_math::Vec3 { z: wo.z().abs(), ..wo.v() });
+        let up = LocalDir::new(Vec3 { z: wo.z().abs(), ..wo.v() });
         let rough = self.ggx.sample_visible(up, u.dir);
-        let m = LocalDir::new(sparrow_math::Vec3::select(
-            delta,
-            sparrow_math::vec3(R::ZERO, R::ZERO, R::ONE),
-            rough.v(),
-        ));
+        let m = LocalDir::new(Vec3::select(delta, vec3(R::ZERO, R::ZERO, R::ONE), rough.v()));
         let wi_up = up.reflect(m);
         let valid = up.above() & wi_up.above();
         let F = self.fresnel(up.dot(m).clamp(R::ZERO, R::ONE));
         let G = R::select(delta, R::ONE, self.ggx.g2_over_g1(up, wi_up));
         let density = R::select(delta, R::ONE, self.ggx.visible_over_cos(up, m) * R::of(0.25));
         BsdfSample {
-            wi: LocalDir::new(sparrow_math::Vec3 { z: wi_up.z().copysign(wo.z()), ..wi_up.v() }),
+            wi: LocalDir::new(Vec3 { z: wi_up.z().copysign(wo.z()), ..wi_up.v() }),
             weight: (F * G).only_where(valid),
             density: density.only_where(valid),
             eta: R::ONE,

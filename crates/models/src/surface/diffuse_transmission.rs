@@ -2,7 +2,7 @@
 
 use core::f64::consts::FRAC_1_PI;
 
-use sparrow_math::{LocalDir, Mask, Real, warp};
+use sparrow_math::{LocalDir, Mask, Real, Vec3, warp};
 use sparrow_spectra::Spectrum;
 
 use crate::{Bsdf, BsdfSample, Model, ParamBlock, ParamInfo, Uniforms};
@@ -53,7 +53,7 @@ impl<R: Real> Bsdf<R> for DiffuseTransmission<R> {
         let p = self.reflect_probability();
         let reflects = u.lobe.lt(p);
         let up = LocalDir::new(warp::cosine_hemisphere(u.dir)).flip_to(wo);
-        let wi = LocalDir::new(sparrow_math::Vec3 { z: R::select(reflects, up.z(), -up.z()), ..up.v() });
+        let wi = LocalDir::new(Vec3 { z: R::select(reflects, up.z(), -up.z()), ..up.v() });
         let chosen = R::select(reflects, p, R::ONE - p);
         let density = chosen * warp::cosine_hemisphere_pdf(wi.abs_cos_theta());
         BsdfSample {

@@ -69,7 +69,9 @@ pub(crate) fn padded_pair(reversed: u32, key: u64, how: Randomize) -> [u32; 2] {
     let index = nested(reversed, key as u32).reverse_bits();
     let x = randomize(index, (key >> 32) as u32, how);
     let y = randomize(second_dimension(index), (key.wrapping_mul(GOLDEN) >> 32) as u32, how);
-    [x.reverse_bits(), y.reverse_bits()]
+    // One reversal of 64 bits costs what one of 32 does, where the processor has no instruction for it.
+    let both = (u64::from(x) << 32 | u64::from(y)).reverse_bits();
+    [both as u32, (both >> 32) as u32]
 }
 
 #[cfg(test)]

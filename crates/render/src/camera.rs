@@ -1,0 +1,137 @@
+//! Cameras: from a point on the film and one on the lens to a ray.
+
+use sparrow_geometry::Ray;
+use sparrow_math::{Real, Transform, Vec3, vec3, warp};
+use sparrow_scene::{CameraDesc, Projection};
+
+/// A perspective or orthographic camera with a thin lens.
+#[derive(Clone, Debug)]
+pub struct Camera {
+    to_world: Transform,
+    /// Columns of the camera-to-world map, in single precision.
+    axes: [Vec3<f32>; 3],
+    origin: Vec3<f32>,
+    /// Film position to the plane z = 1 (perspective) or z = 0 (orthographic): offset and step per pixel.
+    corner: [f32; 2],
+    step: [f32; 2],
+    perspective: bool,
+    lens_radius: f32,
+    focal_distance: f32,
+}
+
+impl Camera {
+    /// Builds the camera for a picture of `resolution` pixels. [pbrt-v4 conventions: camera x right, y up, z ahead]
+    pub fn new(desc: &CameraDesc, resolution: [u32; 2]) -> Camera {
+        let [width, height] = resolution.map(|r| r.max(1) as f32);
+        let aspect = desc.frame_aspect.unwrap_or(width / height);
+        let [x0, x1, y0, y1] = desc.screen_window.unwrap_or(if aspect > 1.0 {
+            [-aspect, aspect, -1.0, 1.0]
+        } else {
+            [-1.0, 1.0, -1.0 / aspect, 1.0 / aspect]
+        });
+        let (perspective, scale) = match desc.projection {
+            Projection::Perspective { fov } => (true, Real::tan(f64::from(fov).to_radians() / 2.0) as f32),
+            Projection::Orthographic => (false, 1.0),
+        };
+        let axis = |v| desc.to_world.vector(v).to_f32();
+        Camera {
+            to_world: desc.to_world,
+            axes: [axis(vec3(1.0, 0.0, 0.0)), axis(vec3(0.0, 1.0, 0.0)), axis(vec3(0.0, 0.0, 1.0))],
+            origin: desc.to_world.point(vec3(0.0, 0.0, 0.0)).to_f32(),
+            corner: [x0 * scale, y1 * scale],
+            step: [(x1 - x0) * scale / width, (y0 - y1) * scale / height],
+            perspective,
+            lens_radius: desc.lens_radius,
+            focal_distance: desc.focal_distance,
+        }
+    }
+
+    /// Camera space to world.
+    pub fn to_world(&self) -> &Transform {
+        &self.to_world
+    }
+
+    /// The ray through `film`, in pixels from the top left corner, and the point of the lens that `lens` chooses.
+    pub fn ray(&self, film: [f32; 2], lens: [f32; 2]) -> Ray {
+        let x = self.corner[0] + film[0] * self.step[0];
+        let y = self.corner[1] + film[1] * self.step[1];
+        let (mut o, mut d) = if self.perspective {
+            (vec3(0.0, 0.0, 0.0), vec3(x, y, 1.0).normalized())
+        } else {
+            (vec3(x, y, 0.0), vec3(0.0, 0.0, 1.0))
+        };
+        if self.lens_radius > 0.0 {
+            let [u, v] = warp::concentric_disk(lens);
+            let focus = o + d * (self.focal_distance / d.z);
+            o += vec3(u, v, 0.0) * self.lens_radius;
+            d = (focus - o).normalized();
+        }
+        Ray { o: self.origin + self.turn(o), d: self.turn(d).normalized(), t_max: f32::INFINITY }
+    }
+
+    fn turn(&self, v: Vec3<f32>) -> Vec3<f32> {
+        self.axes[0] * v.x + self.axes[1] * v.y + self.axes[2] * v.z
+    }
+
+    /// How far the point `p` with normal `n` moves on its tangent plane for one pixel along x and y of the film.
+    ///
+    /// An estimate for points seen through any number of bounces: the pinhole camera is turned to look at `p`, as in
+    /// pbrt-v4. `spacing` is the distance between samples, in pixels.
+    pub fn footprint(&self, p: Vec3<f32>, n: Vec3<f32>, spacing: f32) -> [Vec3<f32>; 2] {
+        let to_p = p - self.origin;
+        let distance = to_p.length();
+        let slant = (to_p.dot(n) / distance.max(1e-20)).abs().max(0.05);
+        let pixel = |axis: Vec3<f32>, step: f32| {
+            let size = if self.perspective { step * distance } else { step } * spacing;
+            // The step in the picture plane, carried along the view direction onto the tangent plane.
+            let s = axis * size;
+            let view = to_p * (1.0 / distance.max(1e-20));
+            s - view * (s.dot(n) / (slant * view.dot(n).signum()))
+        };
+        [pixel(self.axes[0], self.step[0]), pixel(self.axes[1], self.step[1])]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn desc(projection: Projection) -> CameraDesc {
+        CameraDesc {
+            projection,
+            to_world: Transform::IDENTITY,
+            screen_window: None,
+            frame_aspect: None,
+            lens_radius: 0.0,
+            focal_distance: 1e6,
+            shutter: [0.0, 1.0],
+        }
+    }
+
+    #[test]
+    fn field_of_view_spans_the_shorter_side() {
+        let c = Camera::new(&desc(Projection::Perspective { fov: 90.0 }), [200, 100]);
+        let top = c.ray([100.0, 0.0], [0.5; 2]);
+        assert!((top.d.y - top.d.z).abs() < 1e-6 && top.d.x.abs() < 1e-6);
+        let left = c.ray([0.0, 50.0], [0.5; 2]);
+        assert!((left.d.x + 2.0 * left.d.z).abs() < 1e-6);
+    }
+
+    #[test]
+    fn all_lens_points_meet_in_the_plane_of_focus() {
+        let d = CameraDesc {
+            lens_radius: 0.3,
+            focal_distance: 4.0,
+            ..desc(Projection::Perspective { fov: 50.0 })
+        };
+        let c = Camera::new(&d, [64, 64]);
+        let at = |u| {
+            let r = c.ray([10.0, 20.0], u);
+            r.o + r.d * ((4.0 - r.o.z) / r.d.z)
+        };
+        let p = at([0.5, 0.5]);
+        for u in [[0.1, 0.2], [0.9, 0.4], [0.3, 0.99]] {
+            assert!((at(u) - p).length() < 1e-5);
+        }
+    }
+}

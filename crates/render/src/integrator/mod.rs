@@ -1,0 +1,31 @@
+//! Integrators: radiance along a camera ray.
+
+mod path;
+
+pub use path::PathIntegrator;
+
+/// Rays traced, by kind.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct RayCounts {
+    /// From the camera.
+    pub camera: u64,
+    /// Further ones that look for the nearest surface.
+    pub scattered: u64,
+    /// That ask whether a light is seen.
+    pub shadow: u64,
+}
+
+impl RayCounts {
+    /// All rays.
+    pub fn total(&self) -> u64 {
+        self.camera + self.scattered + self.shadow
+    }
+}
+
+impl core::ops::AddAssign for RayCounts {
+    fn add_assign(&mut self, o: Self) {
+        self.camera += o.camera;
+        self.scattered += o.scattered;
+        self.shadow += o.shadow;
+    }
+}

@@ -1,0 +1,304 @@
+//! Lights: what they send towards a point, and how likely a direction is to be sampled.
+
+mod build;
+mod environment;
+mod selection;
+
+use sparrow_geometry::{Geometry, ShapeSample, SurfacePoint};
+use sparrow_math::{Real, Transform, Vec3};
+use sparrow_spectra::{DenseSpectrum, Spectrum, Wavelengths};
+
+pub use build::LightBuild;
+pub use environment::Environment;
+pub use selection::LightSelection;
+
+/// Marks shapes that emit nothing.
+pub const NO_LIGHT: u32 = u32::MAX;
+
+/// One light.
+#[derive(Debug)]
+pub enum Light {
+    /// One primitive of an emitting shape.
+    Area {
+        /// Shape in the geometry.
+        shape: u32,
+        /// Primitive in the shape.
+        prim: u32,
+        /// Table of emission.
+        emission: u32,
+        /// Factor on the table.
+        scale: f32,
+        /// Emits on both sides.
+        two_sided: bool,
+    },
+    /// A point.
+    Point {
+        /// Place.
+        p: Vec3<f32>,
+        /// Table of emission.
+        emission: u32,
+        /// Factor on the table.
+        scale: f32,
+    },
+    /// A cone of light from a point.
+    Spot {
+        /// Place.
+        p: Vec3<f32>,
+        /// World to light space, where z is the axis.
+        to_light: Box<Transform>,
+        /// Cosine where the light ends.
+        cos_end: f32,
+        /// Cosine up to which it is full.
+        cos_start: f32,
+        /// Table of emission.
+        emission: u32,
+        /// Factor on the table.
+        scale: f32,
+    },
+    /// Parallel light.
+    Distant {
+        /// Direction towards the light.
+        wi: Vec3<f32>,
+        /// Table of emission.
+        emission: u32,
+        /// Factor on the table.
+        scale: f32,
+    },
+    /// One radiance from all around.
+    Uniform {
+        /// Table of emission.
+        emission: u32,
+        /// Factor on the table.
+        scale: f32,
+        /// Light sampling leaves it to the BSDF: the sharpened density of MIS compensation is zero everywhere.
+        left_to_bsdf: bool,
+    },
+    /// An image of radiance from all around.
+    Environment(Box<Environment>),
+}
+
+/// Light from a sampled direction.
+#[derive(Clone, Copy, Debug)]
+pub struct LightSample {
+    /// Towards the light, unit.
+    pub wi: Vec3<f32>,
+    /// What it sends, unoccluded. For a light that is a point or a direction: over the square of the distance.
+    pub radiance: Spectrum<f32>,
+    /// Density in 1/sr; 1 for lights that no other technique can find.
+    pub pdf: f32,
+    /// No other technique can find it.
+    pub delta: bool,
+    /// How far a shadow ray has to go.
+    pub target: Target,
+}
+
+/// Where a shadow ray ends.
+#[derive(Clone, Copy, Debug)]
+pub enum Target {
+    /// On a surface.
+    Surface(ShapeSample),
+    /// At a point in space.
+    Point(Vec3<f32>),
+    /// Nowhere.
+    Infinity,
+}
+
+/// The point that is lit, as far as the choice of a light depends on it.
+#[derive(Clone, Copy, Debug)]
+pub struct LitPoint {
+    /// Point.
+    pub p: Vec3<f32>,
+    /// Shading normal.
+    pub n: Vec3<f32>,
+}
+
+/// All lights of a scene.
+#[derive(Debug)]
+pub struct Lights {
+    lights: Vec<Light>,
+    emissions: Vec<DenseSpectrum>,
+    /// First light of each shape, or [`NO_LIGHT`].
+    first_of_shape: Vec<u32>,
+    /// Lights that rays meet where they leave the scene.
+    infinite: Vec<u32>,
+    selection: LightSelection,
+    bounds_radius: f32,
+}
+
+impl Lights {
+    /// The number of lights, each primitive of an emitting shape counted.
+    pub fn len(&self) -> usize {
+        self.lights.len()
+    }
+    /// There is no light.
+    pub fn is_empty(&self) -> bool {
+        self.lights.is_empty()
+    }
+    /// The lights.
+    pub fn as_slice(&self) -> &[Light] {
+        &self.lights
+    }
+    /// Indices of the lights around the scene.
+    pub fn infinite(&self) -> &[u32] {
+        &self.infinite
+    }
+    /// Radius of the scene, with which powers of infinite lights were estimated.
+    pub fn bounds_radius(&self) -> f32 {
+        self.bounds_radius
+    }
+    /// The light of that primitive.
+    #[inline]
+    pub fn of_primitive(&self, shape: u32, prim: u32) -> Option<u32> {
+        let first = self.first_of_shape[shape as usize];
+        (first != NO_LIGHT).then(|| first + prim)
+    }
+
+    /// Chooses a light for the point `at`: its index, the probability, and `u` made uniform again.
+    #[inline]
+    pub fn choose(&self, at: &LitPoint, u: f32) -> Option<(u32, f32)> {
+        self.selection.choose(at, u)
+    }
+    /// The probability with which [`choose`](Self::choose) picks that light.
+    #[inline]
+    pub fn probability(&self, at: &LitPoint, light: u32) -> f32 {
+        self.selection.probability(at, light)
+    }
+
+    /// Draws a direction towards the light; none where it sends nothing to that point.
+    pub fn sample(
+        &self,
+        geometry: &Geometry,
+        light: u32,
+        at: &LitPoint,
+        u: [f32; 2],
+        w: &Wavelengths,
+    ) -> Option<LightSample> {
+        match &self.lights[light as usize] {
+            Light::Area { shape, prim, emission, scale, two_sided } => {
+                let s = geometry.sample_from(*shape, *prim, at.p, u)?;
+                if !(s.pdf > 0.0) || (!two_sided && s.n.dot(s.wi) >= 0.0) {
+                    return None;
+                }
+                Some(LightSample {
+                    wi: s.wi,
+                    radiance: self.emissions[*emission as usize].at(w) * *scale,
+                    pdf: s.pdf,
+                    delta: false,
+                    target: Target::Surface(s),
+                })
+            }
+            Light::Point { p, emission, scale } => self.point_sample(*p, at, *emission, *scale, w),
+            Light::Spot { p, to_light, cos_end, cos_start, emission, scale } => {
+                let back = to_light.vector((at.p - *p).to_f64()).to_f32().normalized();
+                let falloff = smooth_step(*cos_end, *cos_start, back.z);
+                if falloff <= 0.0 {
+                    return None;
+                }
+                self.point_sample(*p, at, *emission, *scale * falloff, w)
+            }
+            Light::Distant { wi, emission, scale } => Some(LightSample {
+                wi: *wi,
+                radiance: self.emissions[*emission as usize].at(w) * *scale,
+                pdf: 1.0,
+                delta: true,
+                target: Target::Infinity,
+            }),
+            Light::Uniform { emission, scale, left_to_bsdf } => {
+                if *left_to_bsdf {
+                    return None;
+                }
+                Some(LightSample {
+                    wi: sparrow_math::warp::uniform_sphere(u),
+                    radiance: self.emissions[*emission as usize].at(w) * *scale,
+                    pdf: 0.25 * core::f32::consts::FRAC_1_PI,
+                    delta: false,
+                    target: Target::Infinity,
+                })
+            }
+            Light::Environment(e) => {
+                let (wi, pdf) = e.sample(u)?;
+                Some(LightSample {
+                    wi,
+                    radiance: e.radiance(wi, w),
+                    pdf,
+                    delta: false,
+                    target: Target::Infinity,
+                })
+            }
+        }
+    }
+
+    fn point_sample(
+        &self,
+        p: Vec3<f32>,
+        at: &LitPoint,
+        emission: u32,
+        scale: f32,
+        w: &Wavelengths,
+    ) -> Option<LightSample> {
+        let d = p - at.p;
+        let d2 = d.length2();
+        if !(d2 > 0.0) {
+            return None;
+        }
+        Some(LightSample {
+            wi: d * (1.0 / d2.sqrt()),
+            radiance: self.emissions[emission as usize].at(w) * (scale / d2),
+            pdf: 1.0,
+            delta: true,
+            target: Target::Point(p),
+        })
+    }
+
+    /// Radiance that leaves the surface `point` of that light in direction `wo`.
+    #[inline]
+    pub fn emitted(&self, light: u32, point: &SurfacePoint, wo: Vec3<f32>, w: &Wavelengths) -> Spectrum<f32> {
+        match &self.lights[light as usize] {
+            Light::Area { emission, scale, two_sided, .. } if *two_sided || point.ng.dot(wo) > 0.0 => {
+                self.emissions[*emission as usize].at(w) * *scale
+            }
+            Light::Area { .. }
+            | Light::Point { .. }
+            | Light::Spot { .. }
+            | Light::Distant { .. }
+            | Light::Uniform { .. }
+            | Light::Environment(_) => Spectrum::ZERO,
+        }
+    }
+
+    /// Density with which [`sample`](Self::sample) finds the surface `point` of that light from `at`, in 1/sr.
+    #[inline]
+    pub fn pdf_of_point(
+        &self,
+        geometry: &Geometry,
+        at: &LitPoint,
+        wi: Vec3<f32>,
+        point: &SurfacePoint,
+    ) -> f32 {
+        geometry.pdf_from(point.shape, point.prim, at.p, wi, point.p, point.ng)
+    }
+
+    /// Radiance of an infinite light from direction `wi`, and the density with which it is sampled, in 1/sr.
+    #[inline]
+    pub fn escaped(&self, light: u32, wi: Vec3<f32>, w: &Wavelengths) -> (Spectrum<f32>, f32) {
+        match &self.lights[light as usize] {
+            Light::Uniform { emission, scale, left_to_bsdf } => {
+                let pdf = if *left_to_bsdf { 0.0 } else { 0.25 * core::f32::consts::FRAC_1_PI };
+                (self.emissions[*emission as usize].at(w) * *scale, pdf)
+            }
+            Light::Environment(e) => (e.radiance(wi, w), e.pdf(wi)),
+            Light::Area { .. } | Light::Point { .. } | Light::Spot { .. } | Light::Distant { .. } => {
+                (Spectrum::ZERO, 0.0)
+            }
+        }
+    }
+}
+
+/// Hermite's step from 0 at `a` to 1 at `b`.
+fn smooth_step(a: f32, b: f32, x: f32) -> f32 {
+    if b <= a {
+        return if x < a { 0.0 } else { 1.0 };
+    }
+    let t = Real::clamp((x - a) / (b - a), 0.0, 1.0);
+    t * t * (3.0 - 2.0 * t)
+}

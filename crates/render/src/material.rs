@@ -1,0 +1,149 @@
+//! Materials: from a point on a surface to a reflection model with its parameters bound.
+
+use std::sync::Arc;
+
+use sparrow_models::{MAX_REALS, MAX_SPECTRA, ParamBlock, ParamKind, Surface, SurfaceKind};
+use sparrow_scene::{FloatTextureId, MaterialDesc, RealParam, SceneDesc, SpectrumParam, SpectrumTextureId};
+use sparrow_spectra::{DenseSpectrum, RgbRole, Wavelengths};
+
+use crate::spectrum::SceneSpectrum;
+use crate::texture::{TextureContext, Textures};
+
+#[derive(Clone, Debug)]
+enum RealSource {
+    Constant(f32),
+    Texture(FloatTextureId),
+    SqrtOfTexture(FloatTextureId),
+    AtHero(Arc<DenseSpectrum>),
+}
+
+#[derive(Clone, Debug)]
+enum SpectrumSource {
+    Value(SceneSpectrum),
+    Texture(SpectrumTextureId),
+    /// `2 sqrt(r) / sqrt(1 - r)` of a texture's reflectance r.
+    KOfTexture(SpectrumTextureId),
+}
+
+/// A material of a compiled scene.
+#[derive(Clone, Debug)]
+pub(crate) struct Material {
+    kind: SurfaceKind,
+    reals: Vec<RealSource>,
+    spectra: Vec<SpectrumSource>,
+    /// The index of refraction varies with wavelength: paths keep only their hero.
+    pub(crate) dispersive: bool,
+    /// Some parameter varies over the surface.
+    pub(crate) textured: bool,
+}
+
+impl Material {
+    /// Compiles a description; none for `interface`, which rays pass unchanged.
+    pub(crate) fn new(
+        desc: &MaterialDesc,
+        scene: &SceneDesc,
+        textures: &mut Textures,
+        faults: &mut Vec<String>,
+    ) -> Option<Material> {
+        let kind = desc.model?;
+        let reals: Vec<RealSource> = desc.reals.iter().map(|r| real_source(r, textures)).collect();
+        let spectral = kind.params().iter().filter(|p| p.kind != ParamKind::Real);
+        let spectra: Vec<SpectrumSource> = spectral
+            .zip(&desc.spectra)
+            .map(|(info, param)| spectrum_source(info.kind, param, scene, textures, faults))
+            .collect();
+        let textured =
+            reals.iter().any(|r| matches!(r, RealSource::Texture(_) | RealSource::SqrtOfTexture(_)))
+                || spectra.iter().any(|s| !matches!(s, SpectrumSource::Value(_)));
+        let dispersive = reals.iter().any(|r| matches!(r, RealSource::AtHero(_)));
+        debug_assert!(
+            reals.len() <= MAX_REALS && spectra.len() <= MAX_SPECTRA,
+            "tables are checked by a test"
+        );
+        Some(Material { kind, reals, spectra, dispersive, textured })
+    }
+
+    /// Evaluates the parameters at a point and binds them.
+    #[inline]
+    pub(crate) fn bind(&self, textures: &Textures, ctx: &TextureContext, w: &Wavelengths) -> Surface<f32> {
+        let mut block = ParamBlock::default();
+        for (slot, source) in block.reals.iter_mut().zip(&self.reals) {
+            *slot = match source {
+                RealSource::Constant(v) => *v,
+                RealSource::Texture(id) => textures.float(*id, ctx),
+                RealSource::SqrtOfTexture(id) => textures.float(*id, ctx).max(0.0).sqrt(),
+                RealSource::AtHero(d) => d.at(w)[0],
+            };
+        }
+        for (slot, source) in block.spectra.iter_mut().zip(&self.spectra) {
+            *slot = match source {
+                SpectrumSource::Value(s) => s.at(w),
+                SpectrumSource::Texture(id) => textures.value(*id, ctx, w),
+                SpectrumSource::KOfTexture(id) => textures.value(*id, ctx, w).map(k_of_reflectance),
+            };
+        }
+        self.kind.bind(&block)
+    }
+}
+
+/// The absorption with which a conductor of eta = 1 reflects `r` at normal incidence.
+fn k_of_reflectance(r: f32) -> f32 {
+    let r = r.clamp(0.0, 0.9999);
+    2.0 * r.sqrt() / (1.0 - r).sqrt()
+}
+
+fn real_source(param: &RealParam, textures: &Textures) -> RealSource {
+    match param {
+        RealParam::Texture(id) => match textures.constant_float(*id) {
+            Some(v) => RealSource::Constant(v),
+            None => RealSource::Texture(*id),
+        },
+        RealParam::RoughnessToAlpha(id) => match textures.constant_float(*id) {
+            Some(v) => RealSource::Constant(v.max(0.0).sqrt()),
+            None => RealSource::SqrtOfTexture(*id),
+        },
+        RealParam::Dispersive(s) => {
+            RealSource::AtHero(Arc::new(SceneSpectrum::new(s, RgbRole::Unbounded).to_dense()))
+        }
+    }
+}
+
+fn spectrum_source(
+    kind: ParamKind,
+    param: &SpectrumParam,
+    scene: &SceneDesc,
+    textures: &mut Textures,
+    faults: &mut Vec<String>,
+) -> SpectrumSource {
+    match param {
+        SpectrumParam::Texture(id) => {
+            let role = if kind == ParamKind::Albedo { RgbRole::Albedo } else { RgbRole::Unbounded };
+            let id = textures.spectrum(scene, *id, role, faults);
+            match textures.constant_spectrum(id) {
+                Some(s) => SpectrumSource::Value(within(kind, s)),
+                None => SpectrumSource::Texture(id),
+            }
+        }
+        SpectrumParam::ReflectanceToK(id) => {
+            let id = textures.spectrum(scene, *id, RgbRole::Albedo, faults);
+            match textures.constant_spectrum(id) {
+                Some(s) => {
+                    let dense = s.to_dense().map(k_of_reflectance);
+                    SpectrumSource::Value(SceneSpectrum::Dense(Arc::new(dense)))
+                }
+                None => SpectrumSource::KOfTexture(id),
+            }
+        }
+    }
+}
+
+/// Reflectances above one would make light: tables are clamped, as pbrt-v4 clamps them.
+fn within(kind: ParamKind, s: SceneSpectrum) -> SceneSpectrum {
+    match (kind, s) {
+        (ParamKind::Albedo, SceneSpectrum::Constant(v)) => SceneSpectrum::Constant(v.clamp(0.0, 1.0)),
+        (ParamKind::Albedo, SceneSpectrum::Dense(d)) => {
+            SceneSpectrum::Dense(Arc::new(d.map(|v| v.clamp(0.0, 1.0))))
+        }
+        (_, s) => s,
+    }
+}

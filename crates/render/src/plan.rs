@@ -1,0 +1,124 @@
+//! How a picture is taken of a scene: everything a render needs beside the scene itself.
+
+use sparrow_scene::{FilterDesc, RandomizeName, SamplerDesc, SamplerName, SceneDesc};
+use sparrow_spectra::{Sensor, Spectrum, Wavelengths};
+
+use crate::filter::{Filter, FilterSampler};
+use crate::integrator::PathIntegrator;
+use crate::mis::Mis;
+use crate::sampler::{Randomize, Sampler, SamplerConfig, SamplerKind};
+
+/// Sampler, filter, sensor and integrator of a render.
+pub struct RenderPlan {
+    /// Uniform numbers.
+    pub sampler: Sampler,
+    /// Pixel filter.
+    pub filter: FilterSampler,
+    /// Spectra to RGB.
+    pub sensor: FilmSensor,
+    /// Light transport.
+    pub integrator: PathIntegrator,
+    /// The part of the picture that is rendered: `x0 x1 y0 y1`, ends excluded.
+    pub bounds: [u32; 4],
+    /// Samples per pixel.
+    pub samples_per_pixel: u32,
+}
+
+/// The sensor with what follows it: the clamp of single samples and the way to output RGB.
+#[derive(Clone, Debug)]
+pub struct FilmSensor {
+    sensor: Sensor,
+    to_output: [[f32; 3]; 3],
+    max_component: f32,
+}
+
+impl FilmSensor {
+    /// Linear RGB of the output colour space, for one sample.
+    #[inline]
+    pub fn rgb(&self, l: Spectrum<f32>, w: &Wavelengths) -> [f32; 3] {
+        let mut s = self.sensor.to_sensor_rgb(l, w);
+        let largest = s[0].max(s[1]).max(s[2]);
+        if largest > self.max_component {
+            s = s.map(|c| c * (self.max_component / largest));
+        }
+        self.to_output.map(|row| row[0] * s[0] + row[1] * s[1] + row[2] * s[2])
+    }
+}
+
+impl RenderPlan {
+    /// From a description.
+    ///
+    /// # Errors
+    /// A sensor or an MIS heuristic that does not exist, each with what does.
+    pub fn new(desc: &SceneDesc) -> Result<RenderPlan, Vec<String>> {
+        let mut faults = Vec::new();
+        let film = &desc.film;
+        let mis = desc.integrator.mis.parse::<Mis>().unwrap_or_else(|e| {
+            faults.push(e);
+            Mis::Balance
+        });
+        let ratio = film.exposure_time * film.iso / 100.0;
+        let sensor = Sensor::new(&film.sensor, film.color_space, ratio, film.white_balance);
+        let Some(sensor) = sensor.filter(|_| faults.is_empty()) else {
+            if faults.is_empty() {
+                let known = Sensor::names().join(", ");
+                faults.push(format!("there is no sensor `{}`; known are {known}", film.sensor));
+            }
+            return Err(faults);
+        };
+        let sampler = Sampler::new(&sampler_config(&desc.sampler, desc.seed, film.resolution));
+        Ok(RenderPlan {
+            filter: FilterSampler::new(&filter(desc.filter)),
+            sensor: FilmSensor {
+                to_output: sensor.output_rgb_from_sensor(),
+                sensor,
+                max_component: film.max_component_value,
+            },
+            integrator: PathIntegrator::new(&desc.integrator, mis),
+            bounds: film.pixel_bounds,
+            samples_per_pixel: sampler.samples_per_pixel(),
+            sampler,
+        })
+    }
+
+    /// Width and height of the part that is rendered.
+    pub fn size(&self) -> [u32; 2] {
+        let [x0, x1, y0, y1] = self.bounds;
+        [x1.saturating_sub(x0), y1.saturating_sub(y0)]
+    }
+}
+
+fn filter(desc: FilterDesc) -> Filter {
+    match desc {
+        FilterDesc::Box { radius } => Filter::Box { radius },
+        FilterDesc::Triangle { radius } => Filter::Triangle { radius },
+        FilterDesc::Gaussian { radius, sigma } => Filter::Gaussian { radius, sigma },
+        FilterDesc::Mitchell { radius, b, c } => Filter::Mitchell { radius, b, c },
+        FilterDesc::Sinc { radius, tau } => Filter::Sinc { radius, tau },
+    }
+}
+
+fn sampler_config(desc: &SamplerDesc, seed: u64, resolution: [u32; 2]) -> SamplerConfig {
+    SamplerConfig {
+        kind: match desc.name {
+            SamplerName::Independent => SamplerKind::Independent,
+            SamplerName::Stratified => {
+                SamplerKind::Stratified { x: desc.strata[0], y: desc.strata[1], jitter: desc.jitter }
+            }
+            SamplerName::Halton => SamplerKind::Halton,
+            SamplerName::Sobol => SamplerKind::Sobol,
+            SamplerName::PaddedSobol => SamplerKind::PaddedSobol,
+            SamplerName::ZSobol => SamplerKind::ZSobol,
+            SamplerName::Pmj02bn => SamplerKind::Pmj02bn,
+        },
+        randomize: match desc.randomize {
+            RandomizeName::None => Randomize::None,
+            RandomizeName::PermuteDigits => Randomize::PermuteDigits,
+            RandomizeName::FastOwen => Randomize::FastOwen,
+            RandomizeName::Owen => Randomize::Owen,
+        },
+        samples_per_pixel: desc.samples_per_pixel,
+        seed: desc.seed.unwrap_or(seed),
+        resolution,
+    }
+}

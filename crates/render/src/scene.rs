@@ -1,0 +1,196 @@
+//! The compiled scene: immutable, shared by all threads, in flat arrays. It knows no file.
+
+use sparrow_geometry::{Geometry, Hit, Ray, SurfacePoint};
+use sparrow_math::Vec3;
+use sparrow_scene::FloatTextureId;
+use sparrow_spectra::{Spectrum, Wavelengths};
+
+use crate::camera::Camera;
+use crate::light::{LightSample, Lights, LitPoint, Target};
+use crate::material::Material;
+use crate::mis::Mis;
+use crate::scatter::Scatter;
+use crate::texture::{TextureContext, Textures};
+
+/// A scene ready to be rendered.
+#[derive(Debug)]
+pub struct Scene {
+    pub(crate) geometry: Geometry,
+    /// Material of each shape of the geometry; none for surfaces that rays pass unchanged.
+    pub(crate) material_of_shape: Vec<Option<u32>>,
+    /// Cut-out texture of each shape.
+    pub(crate) alpha_of_shape: Vec<Option<FloatTextureId>>,
+    pub(crate) materials: Vec<Material>,
+    pub(crate) textures: Textures,
+    pub(crate) lights: Lights,
+    pub(crate) camera: Camera,
+    /// Some shape has a cut-out or is passed unchanged, so that hits must be asked about.
+    pub(crate) asks_hits: bool,
+    /// Distance between samples on the film, in pixels, for the width of texture filters.
+    pub(crate) sample_spacing: f32,
+    /// Some texture filter asks for that width.
+    pub(crate) needs_footprint: bool,
+}
+
+/// The last vertex that scattered by a lobe that is no delta: what MIS compares with.
+#[derive(Clone, Copy, Debug)]
+pub struct LastVertex {
+    /// Where it was.
+    pub at: LitPoint,
+    /// Density of the direction taken, in 1/sr.
+    pub pdf: f32,
+}
+
+impl Scene {
+    /// The camera.
+    pub fn camera(&self) -> &Camera {
+        &self.camera
+    }
+    /// The geometry.
+    pub fn geometry(&self) -> &Geometry {
+        &self.geometry
+    }
+    /// The lights.
+    pub fn lights(&self) -> &Lights {
+        &self.lights
+    }
+    /// The number of compiled materials.
+    pub fn n_materials(&self) -> usize {
+        self.materials.len()
+    }
+    /// Memory of geometry and images, in bytes.
+    pub fn bytes(&self) -> usize {
+        self.geometry.stats().bytes + self.textures.bytes()
+    }
+
+    /// The nearest surface along a ray.
+    #[inline]
+    pub fn intersect(&self, ray: &Ray) -> Option<SurfacePoint> {
+        let hit = if self.asks_hits {
+            self.geometry.intersect_where(ray, |h| self.is_there(ray, h))
+        } else {
+            self.geometry.intersect(ray)
+        };
+        hit.map(|h| self.geometry.surface(ray, &h))
+    }
+
+    /// Something blocks the ray before its end.
+    #[inline]
+    pub fn occluded(&self, ray: &Ray) -> bool {
+        if self.asks_hits {
+            self.geometry.occluded_where(ray, |h| {
+                self.material_of_shape[h.shape as usize].is_some() && self.is_there(ray, h)
+            })
+        } else {
+            self.geometry.occluded(ray)
+        }
+    }
+
+    /// Light that a ray found: from the surface `hit`, or from all around where it left the scene.
+    ///
+    /// Each light is weighted against the chance that light sampling at `last` would have found it.
+    pub fn emitted(
+        &self,
+        ray: &Ray,
+        hit: Option<&SurfacePoint>,
+        last: Option<&LastVertex>,
+        mis: Mis,
+        w: &Wavelengths,
+    ) -> Spectrum<f32> {
+        let weight = |light: u32, pdf: &dyn Fn(&LitPoint) -> f32| {
+            last.map_or(1.0, |v| mis.bsdf_weight(v.pdf, self.lights.probability(&v.at, light) * pdf(&v.at)))
+        };
+        let Some(point) = hit else {
+            return self.lights.infinite().iter().fold(Spectrum::ZERO, |sum, &light| {
+                let (l, pdf) = self.lights.escaped(light, ray.d, w);
+                sum + l * weight(light, &|_| pdf)
+            });
+        };
+        let Some(light) = self.lights.of_primitive(point.shape, point.prim) else { return Spectrum::ZERO };
+        let l = self.lights.emitted(light, point, -ray.d, w);
+        if l.is_black() {
+            return l;
+        }
+        l * weight(light, &|at| self.lights.pdf_of_point(&self.geometry, at, ray.d, point))
+    }
+
+    /// The reflection model at a point, turned to the world; none where rays pass unchanged.
+    ///
+    /// Ends the companion wavelengths where the index of refraction varies with wavelength.
+    #[inline]
+    pub fn scatter(&self, point: &SurfacePoint, w: &mut Wavelengths) -> Option<Scatter> {
+        let material = &self.materials[self.material_of_shape[point.shape as usize]? as usize];
+        if material.dispersive {
+            w.terminate_secondary();
+        }
+        let ctx = self.texture_context(point, material.textured && self.needs_footprint);
+        Some(Scatter::new(point, material.bind(&self.textures, &ctx, w)))
+    }
+
+    /// Chooses a light for a point and draws a direction towards it; the density includes the choice.
+    #[inline]
+    pub fn sample_light(
+        &self,
+        at: &LitPoint,
+        choice: f32,
+        u: [f32; 2],
+        w: &Wavelengths,
+    ) -> Option<LightSample> {
+        let (light, probability) = self.lights.choose(at, choice)?;
+        let s = self.lights.sample(&self.geometry, light, at, u, w)?;
+        Some(LightSample { pdf: s.pdf * probability, ..s })
+    }
+
+    /// The light of a sample reaches the point.
+    #[inline]
+    pub fn unoccluded(&self, point: &SurfacePoint, s: &LightSample) -> bool {
+        let ray = match &s.target {
+            Target::Surface(on_light) => point.spawn_to_sample(on_light),
+            Target::Point(p) => point.spawn_to(*p),
+            Target::Infinity => point.spawn(s.wi),
+        };
+        !self.occluded(&ray)
+    }
+
+    /// Cut-outs: the hit counts with the probability that its alpha texture gives.
+    fn is_there(&self, ray: &Ray, hit: &Hit) -> bool {
+        let Some(alpha) = self.alpha_of_shape[hit.shape as usize] else { return true };
+        let point = self.geometry.surface(ray, hit);
+        let a = self.textures.float(alpha, &self.texture_context(&point, false));
+        // Decided by a hash of ray and surface, so that the same ray always gets the same answer.
+        a >= 1.0 || (a > 0.0 && hash_to_unit(ray, hit) < a)
+    }
+
+    fn texture_context(&self, point: &SurfacePoint, footprint: bool) -> TextureContext {
+        let mut ctx =
+            TextureContext { p: point.p, uv: point.uv, dp: [Vec3::default(); 2], duv: [[0.0; 2]; 2] };
+        if footprint {
+            ctx.dp = self.camera.footprint(point.p, point.ns, self.sample_spacing);
+            ctx.duv = ctx.dp.map(|dp| along_surface(point, dp));
+        }
+        ctx
+    }
+}
+
+/// The change of (u, v) that comes nearest to moving the point by `dp`, by least squares.
+fn along_surface(point: &SurfacePoint, dp: Vec3<f32>) -> [f32; 2] {
+    let (du, dv) = (point.dpdu, point.dpdv);
+    let (a, b, c) = (du.dot(du), du.dot(dv), dv.dot(dv));
+    let det = a * c - b * b;
+    if !(det.abs() > 1e-20) {
+        return [0.0; 2];
+    }
+    let (x, y) = (du.dot(dp), dv.dot(dp));
+    [(c * x - b * y) / det, (a * y - b * x) / det].map(|v| v.clamp(-1e8, 1e8))
+}
+
+/// A uniform number from a ray and the primitive it met.
+fn hash_to_unit(ray: &Ray, hit: &Hit) -> f32 {
+    let words = [ray.o.x, ray.o.y, ray.o.z, ray.d.x, ray.d.y, ray.d.z].map(f32::to_bits);
+    let mut h = 0x9e37_79b9_7f4a_7c15_u64;
+    for v in words.into_iter().chain([hit.shape, hit.prim]) {
+        h = (h ^ u64::from(v)).wrapping_mul(0xff51_afd7_ed55_8ccd);
+        h ^= h >> 32;
+    }
+    (h >> 40) as f32 / (1u64 << 24) as f32
+}

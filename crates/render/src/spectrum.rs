@@ -1,0 +1,92 @@
+//! Spectra of a compiled scene: the description's many forms, brought to four that are quick to look up.
+
+use std::sync::Arc;
+
+use sparrow_scene::SpectrumDesc;
+use sparrow_spectra::{
+    DenseSpectrum, RgbRole, Sigmoid, Spectrum, Wavelengths, blackbody_normalized, named_spectrum,
+    photometric, rgb_spectrum_exact,
+};
+
+/// A spectrum ready for lookup at a path's wavelengths.
+#[derive(Clone, Debug)]
+pub(crate) enum SceneSpectrum {
+    /// The same value everywhere.
+    Constant(f32),
+    /// A scaled sigmoid polynomial: upsampled RGB.
+    Sigmoid(f32, Sigmoid),
+    /// A table at 1 nm.
+    Dense(Arc<DenseSpectrum>),
+}
+
+impl SceneSpectrum {
+    /// Resolves a description; `role` says what RGB values mean. Names the reader has not checked are black.
+    pub(crate) fn new(desc: &SpectrumDesc, role: RgbRole) -> SceneSpectrum {
+        match desc {
+            SpectrumDesc::Constant(v) => SceneSpectrum::Constant(*v),
+            SpectrumDesc::Rgb(rgb, space) => {
+                let s = rgb_spectrum_exact(*rgb, role, *space);
+                match (role, rgb) {
+                    (RgbRole::Illuminant, _) => SceneSpectrum::Dense(Arc::new(s.to_dense())),
+                    #[allow(clippy::float_cmp, reason = "grey is written as three equal numbers")]
+                    (_, [r, g, b]) if r == g && g == b => SceneSpectrum::Constant(*r),
+                    _ => SceneSpectrum::Sigmoid(s.scale, s.sigmoid),
+                }
+            }
+            SpectrumDesc::Blackbody(kelvin) => SceneSpectrum::Dense(Arc::new(blackbody_normalized(*kelvin))),
+            SpectrumDesc::Named(name) => {
+                SceneSpectrum::Dense(Arc::new(named_spectrum(name).unwrap_or(DenseSpectrum::constant(0.0))))
+            }
+            SpectrumDesc::Samples(s) => SceneSpectrum::Dense(Arc::new(DenseSpectrum::from_samples(s))),
+        }
+    }
+
+    /// Values at a path's wavelengths.
+    #[inline]
+    pub(crate) fn at(&self, w: &Wavelengths) -> Spectrum<f32> {
+        match self {
+            SceneSpectrum::Constant(v) => Spectrum::splat(*v),
+            SceneSpectrum::Sigmoid(scale, s) => s.at(w) * *scale,
+            SceneSpectrum::Dense(d) => d.at(w),
+        }
+    }
+
+    /// Multiplied by a number.
+    #[must_use]
+    pub(crate) fn scaled(&self, s: f32) -> SceneSpectrum {
+        match self {
+            SceneSpectrum::Constant(v) => SceneSpectrum::Constant(v * s),
+            SceneSpectrum::Sigmoid(scale, g) => SceneSpectrum::Sigmoid(scale * s, *g),
+            SceneSpectrum::Dense(d) => SceneSpectrum::Dense(Arc::new(d.scaled(s))),
+        }
+    }
+
+    /// As a table.
+    pub(crate) fn to_dense(&self) -> DenseSpectrum {
+        match self {
+            SceneSpectrum::Constant(v) => DenseSpectrum::constant(*v),
+            SceneSpectrum::Sigmoid(scale, s) => DenseSpectrum::from_fn(|l| scale * s.value(l)),
+            SceneSpectrum::Dense(d) => (**d).clone(),
+        }
+    }
+}
+
+/// The emission of a light, as a table, brought to unit luminous output before its scale, as pbrt-v4 does.
+///
+/// For RGB the illuminant of the colour space is what is normalised, not the colour: RGB (1, 1, 1) has luminance 1.
+pub(crate) fn light_spectrum(desc: &SpectrumDesc) -> DenseSpectrum {
+    let (table, reference) = match desc {
+        SpectrumDesc::Rgb(_, space) => {
+            (SceneSpectrum::new(desc, RgbRole::Illuminant).to_dense(), photometric(space.illuminant()))
+        }
+        SpectrumDesc::Constant(_)
+        | SpectrumDesc::Blackbody(_)
+        | SpectrumDesc::Named(_)
+        | SpectrumDesc::Samples(_) => {
+            let t = SceneSpectrum::new(desc, RgbRole::Illuminant).to_dense();
+            let y = photometric(&t);
+            (t, y)
+        }
+    };
+    if reference > 0.0 { table.scaled(1.0 / reference) } else { table }
+}
