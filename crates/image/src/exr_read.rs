@@ -2,15 +2,16 @@
 
 use std::fs;
 use std::io::Cursor;
+use std::panic::catch_unwind;
 use std::path::Path;
 
-use exr::block;
-use exr::image::read::image::ReadLayers;
-use exr::image::read::layers::ReadChannels;
-use exr::image::{AnyChannels, FlatSamples, Layer};
+use exr::block::chunk::{Chunk, CompressedBlock, TileCoordinates};
+use exr::block::lines::LineRef;
+use exr::block::{self, BlockIndex, UncompressedBlock};
+use exr::math::Vec2;
 use exr::meta::MetaData;
-use exr::meta::attribute::{AttributeValue, Matrix4x4, SampleType, Text};
-use exr::meta::header::{ImageAttributes, LayerAttributes};
+use exr::meta::attribute::{AttributeValue, ChannelDescription, Compression, Matrix4x4, SampleType, Text};
+use exr::meta::header::{Header, ImageAttributes, LayerAttributes};
 use half::f16;
 
 use crate::error::{Fault, check_size};
@@ -56,27 +57,37 @@ pub fn read_exr(path: &Path) -> Result<(Image, ExrHeader), ImageError> {
 }
 
 /// Decodes a whole file.
+///
+/// The decoder is careful, but some damaged blocks trip its assertions. They are no reason to end a program
+/// that has other textures to name, so a panic becomes a fault here; nothing outlives it but the input.
 pub(crate) fn decode(bytes: &[u8]) -> Result<(Image, ExrHeader), Fault> {
-    let reader = block::read(Cursor::new(bytes), false).map_err(fault)?;
-    check_headers(reader.meta_data(), bytes.len())?;
-    let large = reader.headers().iter().map(|h| h.layer_size.area()).sum::<usize>() > 1 << 18;
-    let builder = exr::image::read::read().no_deep_data().largest_resolution_level().all_channels();
-    let builder = builder.all_layers().all_attributes();
-    // Starting threads costs more than a small picture does.
-    let builder = if large { builder } else { builder.non_parallel() };
-    let file = builder.from_chunks(reader).map_err(fault)?;
+    catch_unwind(|| decode_blocks(bytes)).unwrap_or_else(|_| {
+        Err(Fault::damaged("not a sound OpenEXR file: a block of pixels cannot be decoded"))
+    })
+}
 
-    let layers = &file.layer_data;
-    let first = layers.first().ok_or_else(|| Fault::damaged("the file has no part"))?;
-    let header = header_of(&file.attributes, &first.attributes);
-    let planes = Plane::all(layers, first);
-    let names: Vec<String> = planes.iter().map(|p| p.name.clone()).collect();
-    let order = colour_first(&names);
-    let pixels = interleave(&planes, &order, first.size.area());
-    let names = order.iter().map(|i| names[*i].clone()).collect();
-    let mut image = Image::new(first.size.width(), first.size.height(), names, pixels, Encoding::Linear)
+fn decode_blocks(bytes: &[u8]) -> Result<(Image, ExrHeader), Fault> {
+    let reader = block::read(Cursor::new(bytes), false).map_err(fault)?;
+    let meta = reader.meta_data().clone();
+    check_headers(&meta, bytes.len())?;
+    let first = meta.headers.first().ok_or_else(|| Fault::damaged("the file has no part"))?;
+    let mut canvas = Canvas::new(&meta.headers, first);
+    let largest = |_: &MetaData, tile: TileCoordinates, block: BlockIndex| {
+        tile.level_index == Vec2(0, 0) && canvas.slots[block.layer].iter().any(Option::is_some)
+    };
+    for chunk in reader.filter_chunks(true, largest).map_err(fault)? {
+        let chunk = chunk.map_err(fault)?;
+        check_dwa(&chunk, &meta)?;
+        let block = UncompressedBlock::decompress_chunk(chunk, &meta, false).map_err(fault)?;
+        let channels = &meta.headers[block.index.layer].channels;
+        for line in block.lines(channels) {
+            canvas.paint(line, channels.list[line.location.channel].sample_type);
+        }
+    }
+    let header = header_of(&first.shared_attributes, &first.own_attributes);
+    let mut image = Image::new(canvas.width, canvas.height, canvas.names, canvas.pixels, Encoding::Linear)
         .map_err(|e| Fault::damaged(e.to_string()))?;
-    image.chromaticities = file.attributes.chromaticities.map(|c| Chromaticities {
+    image.chromaticities = first.shared_attributes.chromaticities.map(|c| Chromaticities {
         red: [c.red.x(), c.red.y()],
         green: [c.green.x(), c.green.y()],
         blue: [c.blue.x(), c.blue.y()],
@@ -104,45 +115,107 @@ fn check_headers(meta: &MetaData, file_len: usize) -> Result<(), Fault> {
     Ok(())
 }
 
-/// One channel of one part, under the name it gets in the image.
-struct Plane<'a> {
-    name: String,
-    samples: &'a FlatSamples,
+/// Refuses a DWA block whose header announces more data than its pixels take: the decoder would reserve it.
+///
+/// The block starts with eleven 64-bit counts; the second to the tenth are sizes
+/// (OpenEXR, `internal_dwa_compressor.h`). A block that did not shrink is stored plainly, without them.
+fn check_dwa(chunk: &Chunk, meta: &MetaData) -> Result<(), Fault> {
+    let header = &meta.headers[chunk.layer_index];
+    let data = match &chunk.compressed_block {
+        CompressedBlock::ScanLine(b) => &b.compressed_pixels_le,
+        CompressedBlock::Tile(b) => &b.compressed_pixels_le,
+        CompressedBlock::DeepScanLine(_) | CompressedBlock::DeepTile(_) => return Ok(()),
+    };
+    if !matches!(header.compression, Compression::DWAA(_) | Compression::DWAB(_)) {
+        return Ok(());
+    }
+    let tile = header.get_block_data_indices(&chunk.compressed_block).map_err(fault)?;
+    let size = header.get_absolute_block_pixel_coordinates(tile).map_err(fault)?.size;
+    if data.len() == size.area() * header.channels.bytes_per_pixel {
+        return Ok(());
+    }
+    // Transformed in squares of 8 x 8, with at most four bytes a sample and twice that before packing.
+    let padded = size.width().next_multiple_of(8) * size.height().next_multiple_of(8);
+    let most = (padded * header.channels.list.len() * 8 + 4096) as u64;
+    let sizes = data.as_chunks::<8>().0.iter().skip(1).take(9).map(|b| u64::from_le_bytes(*b));
+    if sizes.max().is_some_and(|s| s > most) {
+        return Err(Fault::damaged("not a sound OpenEXR file: a DWA block is larger than its pixels"));
+    }
+    Ok(())
 }
 
-impl<'a> Plane<'a> {
-    /// The channels of all parts that cover the same pixels as the first.
+/// The image being put together: channels of one pixel side by side.
+struct Canvas {
+    width: usize,
+    height: usize,
+    names: Vec<String>,
+    pixels: Pixels,
+    /// Where each channel of each part goes; `None` where it is left out.
+    slots: Vec<Vec<Option<usize>>>,
+}
+
+impl Canvas {
+    /// Takes the channels of all parts that cover the same pixels as the first.
     ///
     /// With several parts, the part's name becomes a layer name, unless the channel's name has it already
-    /// (writers do both).
-    fn all(
-        layers: &'a [Layer<AnyChannels<FlatSamples>>],
-        first: &Layer<AnyChannels<FlatSamples>>,
-    ) -> Vec<Self> {
-        let mut planes: Vec<Plane<'a>> = Vec::new();
-        for layer in layers {
-            let same = layer.size == first.size
-                && layer.attributes.layer_position == first.attributes.layer_position;
-            let part = layer.attributes.layer_name.as_ref().filter(|_| layers.len() > 1).map(Text::to_string);
-            for channel in layer.channel_data.list.iter().filter(|_| same) {
-                let own = channel.name.to_string();
+    /// (writers do both). Half floats stay half only where all channels are.
+    fn new(headers: &[Header], first: &Header) -> Canvas {
+        let mut names: Vec<String> = Vec::new();
+        let mut all_half = true;
+        let mut slots = Vec::with_capacity(headers.len());
+        for h in headers {
+            let same = h.data_window() == first.data_window();
+            let part = h.own_attributes.layer_name.as_ref().filter(|_| headers.len() > 1).map(text_of);
+            let place = |c: &ChannelDescription| {
+                let own = text_of(&c.name);
                 let name = match &part {
                     Some(p) if !p.is_empty() && !own.starts_with(&format!("{p}.")) => format!("{p}.{own}"),
                     Some(_) | None => own,
                 };
-                if planes.iter().all(|p| p.name != name) {
-                    planes.push(Plane { name, samples: &channel.sample_data });
+                if !same || names.contains(&name) {
+                    return None;
                 }
-            }
+                all_half &= c.sample_type == SampleType::F16;
+                names.push(name);
+                Some(names.len() - 1)
+            };
+            slots.push(h.channels.list.iter().map(place).collect::<Vec<_>>());
         }
-        planes
+        let order = colour_first(&names);
+        let mut place_of = vec![0; names.len()];
+        order.iter().enumerate().for_each(|(place, i)| place_of[*i] = place);
+        slots.iter_mut().flatten().flatten().for_each(|slot| *slot = place_of[*slot]);
+        let names = order.iter().map(|i| names[*i].clone()).collect();
+        let n = first.layer_size.area() * order.len();
+        let pixels = if all_half { Pixels::F16(vec![f16::ZERO; n]) } else { Pixels::F32(vec![0.0; n]) };
+        Canvas { width: first.layer_size.width(), height: first.layer_size.height(), names, pixels, slots }
     }
 
-    fn sample_type(&self) -> SampleType {
-        match self.samples {
-            FlatSamples::F16(_) => SampleType::F16,
-            FlatSamples::F32(_) => SampleType::F32,
-            FlatSamples::U32(_) => SampleType::U32,
+    /// Copies one row of one channel; the decoder hands it over in the byte order of the machine.
+    fn paint(&mut self, line: LineRef<'_>, kind: SampleType) {
+        let at = line.location;
+        let Some(slot) = self.slots[at.layer][at.channel] else { return };
+        let n = self.names.len();
+        let start = (at.position.y() * self.width + at.position.x()) * n + slot;
+        let (pairs, fours) = (line.value.as_chunks::<2>().0.iter(), line.value.as_chunks::<4>().0.iter());
+        match &mut self.pixels {
+            Pixels::F16(v) => {
+                let places = v[start..].iter_mut().step_by(n);
+                places.zip(pairs).for_each(|(o, b)| *o = f16::from_ne_bytes(*b));
+            }
+            Pixels::F32(v) => {
+                let places = v[start..].iter_mut().step_by(n);
+                match kind {
+                    SampleType::F16 => {
+                        places.zip(pairs).for_each(|(o, b)| *o = f16::from_ne_bytes(*b).to_f32())
+                    }
+                    SampleType::F32 => places.zip(fours).for_each(|(o, b)| *o = f32::from_ne_bytes(*b)),
+                    SampleType::U32 => {
+                        places.zip(fours).for_each(|(o, b)| *o = u32::from_ne_bytes(*b) as f32)
+                    }
+                }
+            }
+            Pixels::U8(_) => debug_assert!(false, "a canvas is made of floats"),
         }
     }
 }
@@ -164,30 +237,6 @@ fn colour_first(names: &[String]) -> Vec<usize> {
     order
 }
 
-/// Puts the channels of each pixel side by side; half floats stay half only where all channels are.
-fn interleave(planes: &[Plane<'_>], order: &[usize], n_pixels: usize) -> Pixels {
-    let n = order.len();
-    if planes.iter().all(|p| p.sample_type() == SampleType::F16) {
-        let mut out = vec![f16::ZERO; n * n_pixels];
-        for (c, &i) in order.iter().enumerate() {
-            if let FlatSamples::F16(v) = planes[i].samples {
-                out.iter_mut().skip(c).step_by(n).zip(v).for_each(|(o, v)| *o = *v);
-            }
-        }
-        return Pixels::F16(out);
-    }
-    let mut out = vec![0.0f32; n * n_pixels];
-    for (c, &i) in order.iter().enumerate() {
-        let places = out.iter_mut().skip(c).step_by(n);
-        match planes[i].samples {
-            FlatSamples::F16(v) => places.zip(v).for_each(|(o, v)| *o = v.to_f32()),
-            FlatSamples::F32(v) => places.zip(v).for_each(|(o, v)| *o = *v),
-            FlatSamples::U32(v) => places.zip(v).for_each(|(o, v)| *o = *v as f32),
-        }
-    }
-    Pixels::F32(out)
-}
-
 fn header_of(shared: &ImageAttributes, own: &LayerAttributes) -> ExrHeader {
     let mut attributes: Vec<(String, Attribute)> = Vec::new();
     let named = [
@@ -197,7 +246,7 @@ fn header_of(shared: &ImageAttributes, own: &LayerAttributes) -> ExrHeader {
         ("capDate", &own.capture_date),
     ];
     for (name, text) in named {
-        attributes.extend(text.as_ref().map(|t| (name.to_owned(), Attribute::Text(t.to_string()))));
+        attributes.extend(text.as_ref().map(|t| (name.to_owned(), Attribute::Text(text_of(t)))));
     }
     for (name, value) in shared.other.iter().chain(&own.other) {
         attributes.extend(attribute_of(value).map(|v| (name.to_string(), v)));
@@ -214,10 +263,15 @@ fn header_of(shared: &ImageAttributes, own: &LayerAttributes) -> ExrHeader {
     }
 }
 
+/// UTF-8, as OpenEXR recommends; older writers left Latin-1, which `Display` decodes.
+fn text_of(text: &Text) -> String {
+    String::from_utf8(text.as_slice().to_vec()).unwrap_or_else(|_| text.to_string())
+}
+
 #[expect(clippy::wildcard_enum_match_arm, reason = "twenty kinds that nobody asks for")]
 fn attribute_of(value: &AttributeValue) -> Option<Attribute> {
     match value {
-        AttributeValue::Text(t) => Some(Attribute::Text(t.to_string())),
+        AttributeValue::Text(t) => Some(Attribute::Text(text_of(t))),
         AttributeValue::I32(v) => Some(Attribute::Int(*v)),
         AttributeValue::F32(v) => Some(Attribute::Float(*v)),
         AttributeValue::F64(v) => Some(Attribute::Double(*v)),

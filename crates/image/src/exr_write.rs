@@ -25,7 +25,7 @@ pub struct OutputChannel {
 /// The value of an attribute in the header of an OpenEXR file.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Attribute {
-    /// Text; characters outside Latin-1 are written as `?`.
+    /// Text, in UTF-8.
     Text(String),
     /// A whole number.
     Int(i32),
@@ -201,12 +201,6 @@ fn name_of(name: &str) -> Result<Text, String> {
     })
 }
 
-/// Text as OpenEXR can store it, one byte a character.
-fn text_of(text: &str) -> Text {
-    let bytes: Vec<u8> = text.chars().map(|c| u8::try_from(c).unwrap_or(b'?')).collect();
-    Text::from_slice_unchecked(&bytes)
-}
-
 fn add_attributes(own: &mut LayerAttributes, attributes: &[(String, Attribute)]) -> Result<(), String> {
     let mut seen = BTreeSet::new();
     for (name, value) in attributes {
@@ -215,7 +209,7 @@ fn add_attributes(own: &mut LayerAttributes, attributes: &[(String, Attribute)])
         }
         let key = name_of(name)?;
         let value = match value {
-            Attribute::Text(t) => AttributeValue::Text(text_of(t)),
+            Attribute::Text(t) => AttributeValue::Text(Text::from_slice_unchecked(t.as_bytes())),
             Attribute::Int(v) => AttributeValue::I32(*v),
             Attribute::Float(v) => AttributeValue::F32(*v),
             Attribute::Double(v) => AttributeValue::F64(*v),

@@ -148,3 +148,62 @@ fn check(picture: &[[f32; 3]], reference: &[[f32; 3]]) -> Result<(), ImageError>
     }
     Ok(())
 }
+
+#[cfg(test)]
+#[allow(clippy::float_cmp, reason = "these values are exact")]
+mod tests {
+    use super::*;
+
+    /// Multiples of 1/64, exact in single precision.
+    fn pattern(n: usize, step: usize, modulus: usize) -> Vec<[f32; 3]> {
+        (0..n).map(|p| [0, 1, 2].map(|c| ((p * 3 + c) * step % modulus) as f32 / 64.0)).collect()
+    }
+
+    fn near(got: f64, want: f64) {
+        assert!((got / want - 1.0).abs() < 1e-12, "got {got}, want {want}");
+    }
+
+    #[test]
+    fn measures_agree_with_numpy() {
+        // The definitions above, written in NumPy, for 19 x 17 pixels.
+        let (p, r) = (pattern(19 * 17, 37, 101), pattern(19 * 17, 53, 97));
+        let c = compare(19, &p, &r).unwrap();
+        near(c.mse, 0.40492045399574306);
+        near(c.relmse, 6.615986195599235);
+        near(c.relmse_trimmed, 5.98255708798507);
+        near(c.block_relmse.unwrap(), 0.0031180267264263235);
+        let ratio = [1.0398118920311794, 1.04530472435856, 1.037757731958763];
+        (0..3).for_each(|i| near(c.mean_ratio[i], ratio[i]));
+    }
+
+    #[test]
+    fn trimming_drops_the_worst_pixel() {
+        let reference = vec![[1.0; 3]; 100];
+        let mut p = reference.clone();
+        p[17] = [1e6; 3];
+        assert!(relmse(&p, &reference, 0.0).unwrap() > 1e9);
+        assert_eq!(relmse(&p, &reference, 0.01).unwrap(), 0.0);
+        p[17] = [f32::NAN; 3];
+        assert!(relmse(&p, &reference, 0.0).unwrap().is_nan());
+        assert_eq!(relmse(&p, &reference, 0.01).unwrap(), 0.0, "a NaN counts as worst");
+    }
+
+    #[test]
+    fn noise_averages_out_in_blocks_but_bias_does_not() {
+        let reference = vec![[1.0; 3]; 256];
+        let noisy: Vec<_> = (0..256).map(|i| [if i % 2 == 0 { 0.5 } else { 1.5 }; 3]).collect();
+        let biased = vec![[1.5; 3]; 256];
+        assert_eq!(block_relmse(16, &noisy, &reference).unwrap(), Some(0.0));
+        near(block_relmse(16, &biased, &reference).unwrap().unwrap(), 0.25 / 1.01);
+        assert_eq!(block_relmse(256, &noisy, &reference).unwrap(), None, "one row holds no block");
+        assert_eq!(mean_ratio(&biased, &reference).unwrap(), [1.5; 3]);
+    }
+
+    #[test]
+    fn pictures_that_do_not_fit_are_refused() {
+        let (a, b) = (vec![[0.0; 3]; 4], vec![[0.0; 3]; 5]);
+        assert!(mse(&a, &b).unwrap_err().to_string().contains("same resolution"));
+        assert!(mse(&[], &[]).is_err() && relmse(&a, &a, 1.0).is_err());
+        assert!(block_relmse(3, &a, &a).is_err() && block_relmse(0, &a, &a).is_err());
+    }
+}
