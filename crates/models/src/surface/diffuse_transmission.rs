@@ -1,4 +1,6 @@
 //! Diffuse reflection and diffuse transmission: a thin sheet that scatters light equally to each side.
+//!
+//! Lossless where reflectance and transmittance sum to one; where they sum to more, it makes light, as the file asked.
 
 use core::f64::consts::FRAC_1_PI;
 
