@@ -33,6 +33,7 @@
 //! # Ok::<(), &str>(())
 //! ```
 
+pub mod batch;
 mod bsdf;
 pub mod fresnel;
 pub mod ggx;

@@ -67,6 +67,40 @@ macro_rules! models {
             }
         }
 
+        /// One match for a whole batch; the loops are monomorphic.
+        impl $Kind {
+            #[inline(always)]
+            pub(crate) fn eval_columns<R: sparrow_math::Real>(
+                self,
+                p: &$crate::batch::ParamColumns<'_>,
+                wo: &$crate::batch::DirColumns<'_>,
+                wi: &$crate::batch::DirColumns<'_>,
+                out: &mut $crate::batch::EvalColumns<'_>,
+                range: core::ops::Range<usize>,
+            ) {
+                match self {
+                    $( $Kind::$Variant => {
+                        $crate::batch::eval_model::<R, $module::$Type<R>>(p, wo, wi, out, range);
+                    } )*
+                }
+            }
+            #[inline(always)]
+            pub(crate) fn sample_columns<R: sparrow_math::Real>(
+                self,
+                p: &$crate::batch::ParamColumns<'_>,
+                wo: &$crate::batch::DirColumns<'_>,
+                u: &[&[f32]; 3],
+                out: &mut $crate::batch::SampleColumns<'_>,
+                range: core::ops::Range<usize>,
+            ) {
+                match self {
+                    $( $Kind::$Variant => {
+                        $crate::batch::sample_model::<R, $module::$Type<R>>(p, wo, u, out, range);
+                    } )*
+                }
+            }
+        }
+
         impl<R: sparrow_math::Real> $crate::$Trait<R> for $Enum<R> {
             #[inline]
             fn f(&self, wo: sparrow_math::LocalDir<R>, wi: sparrow_math::LocalDir<R>) -> sparrow_spectra::Spectrum<R> {
