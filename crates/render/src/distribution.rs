@@ -118,7 +118,8 @@ pub struct Piecewise1 {
 impl Piecewise1 {
     /// The density proportional to `f`, one value per bin; no value at all counts as one bin.
     pub fn new(f: &[f32]) -> Piecewise1 {
-        let mut cdf = vec![0.0; f.len().max(1) + 1];
+        let f = if f.is_empty() { &[0.0] } else { f };
+        let mut cdf = vec![0.0; f.len() + 1];
         let total = accumulate(f.iter().map(|w| counted(*w)), &mut cdf);
         let mean = total / (cdf.len() - 1) as f64;
         Piecewise1 { cdf, mean }
@@ -284,5 +285,120 @@ impl Discrete {
     /// Bytes held.
     pub fn bytes(&self) -> usize {
         self.cdf.len() * size_of::<f32>()
+    }
+}
+
+#[cfg(test)]
+#[expect(clippy::float_cmp, reason = "that these numbers agree to the last bit is what is tested")]
+mod tests {
+    use super::*;
+
+    /// Numbers a sampler gives out: multiples of 2^-24.
+    fn units(n: u32) -> impl Iterator<Item = f32> {
+        (0..n).map(move |i| (u64::from(i) * (1 << 24) / u64::from(n)) as f32 / STEPS as f32)
+    }
+
+    const WEIGHTS: [f32; 9] = [0.0, 1.0, 0.0, 0.0, 5.0, 2.5, 1e-12, 1.5, 0.0];
+
+    #[test]
+    fn frequencies_equal_probabilities_to_the_last_step() {
+        let d = Discrete::new(&WEIGHTS).unwrap();
+        let mut count = [0u32; 9];
+        // Every number there is.
+        for i in 0..1u32 << 24 {
+            count[d.sample(i as f32 / STEPS as f32).index] += 1;
+        }
+        for (i, c) in count.iter().enumerate() {
+            assert_eq!(f64::from(*c) / STEPS, f64::from(d.probability(i)), "item {i}");
+            assert_eq!(*c > 0, WEIGHTS[i] > 0.0, "item {i}");
+            assert!((f64::from(*c) / STEPS - f64::from(WEIGHTS[i]) / 10.0).abs() < 1e-6, "item {i}");
+        }
+        assert_eq!(d.probability(9), 0.0);
+    }
+
+    #[test]
+    fn the_remapped_number_is_uniform() {
+        let d = Discrete::new(&WEIGHTS).unwrap();
+        let mut bins = [[0u32; 4]; 9];
+        for u in units(100_000) {
+            let c = d.sample(u);
+            bins[c.index][(c.u * 4.0) as usize] += 1;
+        }
+        for i in [1, 4, 5, 7] {
+            let spread = bins[i].iter().max().unwrap() - bins[i].iter().min().unwrap();
+            assert!(spread <= 2, "item {i}: {:?}", bins[i]);
+        }
+    }
+
+    #[test]
+    fn draws_agree_with_density_and_inverse() {
+        let f = Piecewise1::new(&WEIGHTS);
+        assert!((f.integral() - 10.0 / 9.0).abs() < 1e-7);
+        for u in units(5000) {
+            let d = f.sample(u);
+            assert_eq!(d.index, bin(d.x, 9), "u {u}");
+            assert!(d.pdf > 0.0 && d.pdf == f.pdf(d.x), "u {u}");
+            // Bin 6 is one step wide, and its inverse as exact as `x` is there.
+            assert!((f.invert(d.x) - u).abs() < 1e-6, "u {u}: {}", f.invert(d.x));
+        }
+    }
+
+    #[test]
+    fn the_plane_is_sampled_with_its_density() {
+        let (w, h) = (7, 5);
+        let f: Vec<f32> = (0..35).map(|i| if i / w == 2 { 0.0 } else { (i * i % 11) as f32 }).collect();
+        let d = Piecewise2::new(&f, w, h);
+        let sum: f32 = f.iter().sum();
+        assert!((d.integral() - f64::from(sum) / 35.0).abs() < 1e-6);
+        let mut count = [0u32; 35];
+        for u in units(300) {
+            for v in units(300) {
+                let s = d.sample([u, v]);
+                assert!(s.pdf > 0.0 && s.pdf == d.pdf(s.p), "{u} {v}");
+                let back = d.invert(s.p);
+                assert!((back[0] - u).abs() < 1e-5 && (back[1] - v).abs() < 1e-5, "{u} {v}: {back:?}");
+                count[s.index[1] * w + s.index[0]] += 1;
+            }
+        }
+        for (i, c) in count.iter().enumerate() {
+            let want = f[i] / sum;
+            assert!((*c as f32 / 90_000.0 - want).abs() < 2e-3, "cell {i}: {c} for {want}");
+            let p = [((i % w) as f32 + 0.5) / w as f32, ((i / w) as f32 + 0.5) / h as f32];
+            assert!((d.pdf(p) - want * 35.0).abs() < 1e-4 * 35.0, "cell {i}");
+        }
+        assert_eq!(d.bytes(), (8 * 5 + 6) * 4);
+    }
+
+    #[test]
+    fn nothing_positive_means_uniform() {
+        for weights in [vec![0.0; 4], vec![f32::NAN, -1.0, f32::INFINITY, 0.0]] {
+            let d = Discrete::new(&weights).unwrap();
+            assert!((0..4).all(|i| d.probability(i) == 0.25), "{weights:?}");
+            let p = Piecewise2::new(&weights, 2, 2);
+            assert!(p.pdf([0.1, 0.9]) == 1.0 && p.integral() == 0.0);
+            assert_eq!(p.sample([0.75, 0.25]).index, [1, 0]);
+        }
+        assert!(Discrete::new(&[]).is_none());
+        assert_eq!(Piecewise1::new(&[]).sample(0.5), Draw1 { x: 0.5, pdf: 1.0, index: 0 });
+    }
+
+    #[test]
+    fn a_dim_cell_beside_a_sun_is_still_drawn() {
+        let mut f = vec![1e-9f32; 4096];
+        f[1000] = 1e9;
+        let d = Piecewise1::new(&f);
+        assert!((0..4096).all(|i| d.pdf((i as f32 + 0.5) / 4096.0) > 0.0));
+        // The tilt towards uniform: 4095 steps of 2^-24.
+        assert!((d.pdf(1000.5 / 4096.0) / 4096.0 - (1.0 - 4095.0 / STEPS as f32)).abs() < 1e-6);
+    }
+
+    #[test]
+    fn ends_of_the_range_are_safe() {
+        let d = Piecewise1::new(&[0.0, 3.0, 0.0]);
+        for u in [0.0, ONE_MINUS_EPSILON, 1.0, 7.0, -1.0, f32::NAN] {
+            let s = d.sample(u);
+            assert!(s.x >= 0.0 && s.x < 1.0, "{u}: {s:?}");
+        }
+        assert_eq!((d.pdf(-3.0), d.pdf(1.0), d.pdf(f32::NAN)), (0.0, 0.0, 0.0));
     }
 }

@@ -285,3 +285,101 @@ impl FilterSampler {
 fn tent(u: f32) -> f32 {
     if u < 0.5 { (2.0 * u).sqrt() - 1.0 } else { 1.0 - (2.0 * (1.0 - u)).sqrt() }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn all() -> [Filter; 6] {
+        [
+            Filter::box_filter(),
+            Filter::triangle(),
+            Filter::gaussian(),
+            Filter::mitchell(),
+            Filter::sinc(),
+            Filter::Gaussian { radius: [2.0, 0.75], sigma: 0.9 },
+        ]
+    }
+
+    /// Midpoint rule of `g` over one axis.
+    fn integrate(r: f64, g: impl Fn(f64) -> f64) -> f64 {
+        let n = 20_000;
+        (0..n).map(|i| g(r * (2.0 * (f64::from(i) + 0.5) / f64::from(n) - 1.0))).sum::<f64>() * 2.0 * r
+            / f64::from(n)
+    }
+
+    #[test]
+    fn values_worked_by_hand() {
+        let near = |a: f64, b: f64| assert!((a - b).abs() < 1e-6, "{a} for {b}");
+        near(Filter::triangle().eval([0.5, -1.0]), 1.5);
+        // (16/18 + 0)^2 at the centre; the cubic is 1/18 at distance 1 of 2.
+        near(Filter::mitchell().eval([0.0, 0.0]), (8.0f64 / 9.0).powi(2));
+        near(Filter::mitchell().eval([1.0, 0.0]), 8.0 / 9.0 / 18.0);
+        // Densities of the normal distribution at 0 and 3 sigma, sigma 0.5.
+        near(Filter::gaussian().eval([0.0, 0.0]), (0.797_884_561f64 - 0.008_863_697).powi(2));
+        near(Filter::sinc().eval([0.0, 0.0]), 1.0);
+        near(Filter::sinc().eval([0.5, 0.0]), 2.0 / PI * 3.0 / PI);
+        near(Filter::sinc().eval([0.0, 4.5]), 0.0);
+    }
+
+    #[test]
+    fn integrals_match_quadrature() {
+        for filter in all() {
+            let s = FilterSampler::new(&filter);
+            let [rx, ry] = filter.radius().map(f64::from);
+            let axis = |a: usize, r| integrate(r, |x| filter.factor(a, x));
+            let want = axis(0, rx) * axis(1, ry);
+            assert!((s.integral() - want).abs() < 2e-5 * want, "{filter:?}: {} for {want}", s.integral());
+            assert!(s.abs_integral() >= s.integral() - 1e-9);
+        }
+    }
+
+    #[test]
+    fn samples_follow_the_filter() {
+        for filter in all() {
+            let s = FilterSampler::new(&filter);
+            let [rx, ry] = s.radius();
+            // Signed mass left of x, against quadrature; 4096 equidistant numbers invert it.
+            let n = 4096;
+            let of = |i: u32| (f64::from(i) as f32 + 0.5) / n as f32;
+            let v_positive = (0..n).map(of).find(|v| s.sample([0.5, *v]).weight > 0.0).unwrap();
+            let total = integrate(f64::from(rx), |x| filter.factor(0, x).abs());
+            for edge in [-0.8f32, -0.5, -0.1, 0.0, 0.3, 0.9] {
+                let x = edge * rx;
+                let mut mass = 0.0;
+                for i in 0..n {
+                    let draw = s.sample([of(i), v_positive]);
+                    assert!(draw.offset[0].abs() <= rx && draw.offset[1].abs() <= ry);
+                    assert_eq!(draw.weight.abs().to_bits(), 1f32.to_bits());
+                    mass += if draw.offset[0] < x { f64::from(draw.weight) } else { 0.0 };
+                }
+                let want =
+                    integrate(f64::from(rx), |t| if t < f64::from(x) { filter.factor(0, t) } else { 0.0 });
+                let got = mass / f64::from(n) * total;
+                assert!((got - want).abs() < 4e-3 * total, "{filter:?} up to {edge}: {got} for {want}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_map_is_monotone_and_ends_at_the_radius() {
+        for filter in all() {
+            let s = FilterSampler::new(&filter);
+            let mut last = -s.radius()[0] - 1e-6;
+            for i in 0..1000 {
+                let x = s.sample([i as f32 / 1000.0, 0.5]).offset[0];
+                assert!(x >= last, "{filter:?}: {x} after {last}");
+                last = x;
+            }
+            let end = s.sample([ONE_MINUS_EPSILON; 2]).offset;
+            assert!(end[0] <= s.radius()[0] && end[0] > 0.9 * s.radius()[0], "{filter:?}: {end:?}");
+        }
+    }
+
+    #[test]
+    fn a_filter_without_mass_is_a_box() {
+        let s = FilterSampler::new(&Filter::Mitchell { radius: [0.0, 2.0], b: 0.0, c: 0.5 });
+        let x = s.sample([0.25, 0.5]).offset[0];
+        assert!(x.abs() < 1e-6, "{x}");
+    }
+}

@@ -23,6 +23,7 @@ mod error;
 mod fixed;
 mod pixels;
 #[cfg(test)]
+#[expect(clippy::float_cmp, reason = "exactness is what is tested")]
 mod tests;
 mod tile;
 

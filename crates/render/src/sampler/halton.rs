@@ -1,7 +1,7 @@
 //! The Halton sequence over image plane and path: radical inverses in prime bases.
 
 use super::config::Randomize;
-use super::hash::{below_one, join, mix, permute};
+use super::hash::{GOLDEN, below_one, join, mix};
 
 /// Dimensions with a base of their own: two of the image plane, the rest of the path.
 pub(crate) const N_DIMENSIONS: u32 = 128;
@@ -39,6 +39,16 @@ fn primes() -> impl Iterator<Item = u32> {
     (2u32..).filter(|n| (2..).take_while(|d| d * d <= *n).all(|d| n % d != 0))
 }
 
+/// The digits of a base in random order. [Knuth1997, sec. 3.4.2, algorithm P]
+fn shuffled(prime: u32, key: u64) -> Vec<u16> {
+    let mut digits: Vec<u16> = (0..prime as u16).collect();
+    for i in (1..prime).rev() {
+        let h = mix(key.wrapping_add(u64::from(i).wrapping_mul(GOLDEN))) >> 32;
+        digits.swap(i as usize, ((h * u64::from(i + 1)) >> 32) as usize);
+    }
+    digits
+}
+
 impl Base {
     fn new(prime: u32, permuted: bool, key: u64) -> Base {
         let mut n_digits = 0;
@@ -47,13 +57,9 @@ impl Base {
             power *= u64::from(prime);
             n_digits += 1;
         }
-        let mut permutations = Vec::new();
-        if permuted {
-            for k in 0..n_digits as u64 {
-                let key = join(key, k);
-                permutations.extend((0..prime).map(|d| permute(d, prime, key) as u16));
-            }
-        }
+        let n_permuted = if permuted { n_digits } else { 0 };
+        let permutations: Vec<u16> =
+            (0..n_permuted).flat_map(|k| shuffled(prime, join(key, k as u64))).collect();
         let mut tails = vec![0.0; n_digits + 1];
         if permuted {
             for k in (0..n_digits).rev() {

@@ -18,9 +18,10 @@
 //! *Padded* means that every request takes a fresh (0, 2)-sequence, shuffled against the others
 //! [Burley2020]; what lies beyond the table of a global sequence is padded too.
 //!
-//! Sample counts need not be powers of two. A power of two of consecutive samples, counted from a
-//! multiple of itself, is a (0, m, 2)-net in every pair of a padded kind; other counts are as well
-//! stratified as a prefix of the sequence can be.
+//! Sample counts need not be powers of two. All samples of a power of two, and within them every
+//! power of two above 16 that is counted from a multiple of itself, are a (0, m, 2)-net in every pair of a
+//! padded kind; other counts are as well stratified as a prefix of the sequence can be. Two padded
+//! pairs are shuffled against each other in random blocks of 16 samples (fewer where fewer divide the count).
 
 mod config;
 mod halton;
@@ -31,6 +32,7 @@ mod scramble;
 mod sobol;
 mod stratified;
 #[cfg(test)]
+#[expect(clippy::float_cmp, reason = "repeatability is equality of bits")]
 mod tests;
 mod zorder;
 

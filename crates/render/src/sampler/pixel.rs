@@ -3,7 +3,7 @@
 use super::config::{Randomize, SamplerConfig, SamplerKind};
 use super::halton::{self, HaltonTables};
 use super::hash::{GOLDEN, join, mix, to_unit};
-use super::scramble::{padded_pair, padded_single, randomize};
+use super::scramble::{Blocks, padded_pair, padded_single, randomize};
 use super::sobol::{self, SobolTables};
 use super::{stratified, zorder};
 
@@ -12,6 +12,18 @@ const PIXEL_DIMENSION: u32 = u32::MAX;
 
 /// Path dimensions of the global sequences follow the two of the image plane.
 const PLANE: u32 = 2;
+
+/// Logarithm of the block of samples that padded dimensions permute at random.
+///
+/// Only whole blocks are stratified, so the block divides the number of samples, unless that is large. One
+/// sample per pixel: the block is four pixels.
+fn log2_block(samples_per_pixel: u32) -> u32 {
+    match samples_per_pixel {
+        1 => 2,
+        256.. => 4,
+        n => n.trailing_zeros().min(4),
+    }
+}
 
 /// Tables of the kinds, built once.
 enum Plan {
@@ -28,12 +40,13 @@ pub struct Sampler {
     config: SamplerConfig,
     plan: Plan,
     samples_per_pixel: u32,
+    blocks: Blocks,
     /// Hash of the configuration's seed: nearby seeds have unrelated keys.
     seed: u64,
 }
 
 impl Sampler {
-    /// Builds the tables: nothing for the padded kinds, well under a millisecond of work for the global ones.
+    /// Builds the tables: microseconds of work for the padded kinds, about a millisecond for the global ones.
     pub fn new(config: &SamplerConfig) -> Sampler {
         let seed = join(0x5eed, config.seed);
         let mut samples_per_pixel = config.samples_per_pixel.max(1);
@@ -52,7 +65,8 @@ impl Sampler {
             SamplerKind::Sobol => Plan::Sobol(SobolTables::new(config.resolution)),
             SamplerKind::Halton => Plan::Halton(HaltonTables::new(config.resolution, config.randomize, seed)),
         };
-        Sampler { config: *config, plan, samples_per_pixel, seed }
+        let blocks = Blocks::new(log2_block(samples_per_pixel));
+        Sampler { config: *config, plan, samples_per_pixel, blocks, seed }
     }
 
     /// Samples per pixel of the whole render: as configured, but `x * y` for the stratified kind.
@@ -160,18 +174,24 @@ impl PixelSampler<'_> {
         let d = self.dimension;
         self.dimension = d.wrapping_add(1);
         match &self.sampler.plan {
-            Plan::Padded | Plan::ZOrder { .. } => {
-                to_unit(padded_single(self.index as u32, self.key_of(d), self.sampler.config.randomize))
-            }
+            Plan::Padded | Plan::ZOrder { .. } => to_unit(padded_single(
+                self.index as u32,
+                self.key_of(d),
+                &self.sampler.blocks,
+                self.sampler.config.randomize,
+            )),
             Plan::Independent => to_unit(self.key_of(d) as u32),
             Plan::Stratified { grid, jitter } => {
                 stratified::single(grid[0] * grid[1], *jitter, self.index as u32, self.key_of(d))
             }
             Plan::Sobol(tables) if d < sobol::N_DIMENSIONS - PLANE => self.sobol_value(tables, d),
             Plan::Halton(tables) if d < halton::N_DIMENSIONS - PLANE => tables.value(self.index, d + PLANE),
-            Plan::Sobol(_) | Plan::Halton(_) => {
-                to_unit(padded_single(self.sample_reversed(), self.key_of(d), self.padding()))
-            }
+            Plan::Sobol(_) | Plan::Halton(_) => to_unit(padded_single(
+                self.sample_reversed(),
+                self.key_of(d),
+                &self.sampler.blocks,
+                self.padding(),
+            )),
         }
     }
 
@@ -205,9 +225,13 @@ impl PixelSampler<'_> {
     #[inline]
     fn pair(&self, d: u32) -> [f32; 2] {
         match &self.sampler.plan {
-            Plan::Padded | Plan::ZOrder { .. } => {
-                padded_pair(self.index as u32, self.key_of(d), self.sampler.config.randomize).map(to_unit)
-            }
+            Plan::Padded | Plan::ZOrder { .. } => padded_pair(
+                self.index as u32,
+                self.key_of(d),
+                &self.sampler.blocks,
+                self.sampler.config.randomize,
+            )
+            .map(to_unit),
             Plan::Independent => {
                 let h = self.key_of(d);
                 [to_unit(h as u32), to_unit((h >> 32) as u32)]
@@ -222,7 +246,8 @@ impl PixelSampler<'_> {
                 [tables.value(self.index, d + PLANE), tables.value(self.index, d + PLANE + 1)]
             }
             Plan::Sobol(_) | Plan::Halton(_) => {
-                padded_pair(self.sample_reversed(), self.key_of(d), self.padding()).map(to_unit)
+                padded_pair(self.sample_reversed(), self.key_of(d), &self.sampler.blocks, self.padding())
+                    .map(to_unit)
             }
         }
     }

@@ -53,8 +53,9 @@ fn nibble_table(d: usize) -> Matrix {
     let columns = columns(d);
     let mut m = [[0u32; 16]; N_NIBBLES];
     for (n, row) in m.iter_mut().enumerate() {
-        for (bits, sum) in row.iter_mut().enumerate() {
-            *sum = (0..4).filter(|b| bits >> b & 1 == 1).fold(0, |acc, b| acc ^ columns[4 * n + b]);
+        for bits in 1..16usize {
+            // All bits but the lowest one have been summed before.
+            row[bits] = row[bits & (bits - 1)] ^ columns[4 * n + bits.trailing_zeros() as usize];
         }
     }
     m
@@ -148,8 +149,7 @@ mod tests {
 
     #[test]
     fn first_points_are_those_of_joe_and_kuo() {
-        // Points 1 to 4 of the first ten dimensions as printed by the authors' program, in Gray-code
-        // order 1, 3, 2, 6. [JoeKuo2008, sobol.cc]
+        // Points 1 to 3 as printed by the authors' program, whose Gray-code order visits 1, 3, 2. [JoeKuo2008]
         let t = SobolTables::new([1, 1]);
         let rows: [(u64, [f64; 5]); 3] = [
             (1, [0.5, 0.5, 0.5, 0.5, 0.5]),
