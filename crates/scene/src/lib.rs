@@ -2,9 +2,24 @@
 //!
 //! [`read`] takes a file, [`read_str`] a text. Both report every fault of the scene at once, each with its place.
 
+mod build;
+mod check;
 mod desc;
 mod diagnostic;
+mod lexer;
+mod params;
+mod parser;
+pub mod ply;
 mod read;
+mod report;
+mod source;
+mod spd {
+    pub(crate) fn read(p: &std::path::Path) -> Result<Vec<(f32, f32)>, String> {
+        Err(format!("{}", p.display()))
+    }
+}
+mod suggest;
+mod tables;
 
 pub use desc::*;
 pub use diagnostic::{Diagnostic, DisplayDiagnostic, SceneError, Severity, Span};

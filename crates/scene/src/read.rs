@@ -2,15 +2,18 @@
 
 use std::path::Path;
 
+use crate::build::Builder;
 use crate::desc::SceneDesc;
-use crate::diagnostic::{Diagnostic, SceneError, Span};
+use crate::diagnostic::SceneError;
 
 /// Reads a scene file, and all files it names.
 ///
 /// # Errors
 /// All faults of the scene, in file order.
 pub fn read(path: &Path) -> Result<SceneDesc, SceneError> {
-    Err(not_yet(path))
+    let mut builder = Builder::new(path.parent().unwrap_or(Path::new("")).to_path_buf());
+    builder.read_main(path);
+    builder.finish()
 }
 
 /// Reads a scene from a text; `name` stands for its file in messages, relative paths start at `base_dir`.
@@ -18,14 +21,7 @@ pub fn read(path: &Path) -> Result<SceneDesc, SceneError> {
 /// # Errors
 /// All faults of the scene, in file order.
 pub fn read_str(text: &str, name: &str, base_dir: &Path) -> Result<SceneDesc, SceneError> {
-    let _ = (text, base_dir);
-    Err(not_yet(Path::new(name)))
-}
-
-fn not_yet(path: &Path) -> SceneError {
-    SceneError {
-        faults: vec![Diagnostic::error(Span::default(), "scenes cannot be read yet")],
-        warnings: Vec::new(),
-        files: vec![path.to_path_buf()],
-    }
+    let mut builder = Builder::new(base_dir.to_path_buf());
+    builder.read_main_text(text.as_bytes(), name);
+    builder.finish()
 }

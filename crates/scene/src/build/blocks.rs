@@ -1,0 +1,187 @@
+//! Blocks: attributes, objects and their instances, `WorldBegin`.
+
+use sparrow_math::Transform;
+
+use super::Builder;
+use super::graphics::{Graphics, Target};
+use super::shapes::{Item, Object, Use};
+use crate::diagnostic::{Diagnostic, Span};
+use crate::parser::Parser;
+use crate::suggest::remedy;
+
+/// What opened a block.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum BlockKind {
+    Attribute,
+    Object,
+}
+
+impl BlockKind {
+    fn opener(self) -> &'static str {
+        match self {
+            BlockKind::Attribute => "AttributeBegin",
+            BlockKind::Object => "ObjectBegin",
+        }
+    }
+    fn closer(self) -> &'static str {
+        match self {
+            BlockKind::Attribute => "AttributeEnd",
+            BlockKind::Object => "ObjectEnd",
+        }
+    }
+}
+
+/// A block that is open, and what its end brings back.
+#[derive(Debug)]
+pub(super) struct Block {
+    kind: BlockKind,
+    at: Span,
+    saved: Graphics,
+}
+
+impl Builder {
+    /// Reads a statement about blocks; false where it is another statement.
+    pub(super) fn block_statement(
+        &mut self,
+        parser: &mut Parser<'_>,
+        directive: &'static str,
+        at: Span,
+    ) -> Result<bool, Diagnostic> {
+        match directive {
+            "WorldBegin" => self.world_begin(at),
+            "WorldEnd" => self.report.warn(at, "`WorldEnd` is of pbrt-v3 and has no effect; remove it"),
+            "AttributeBegin" => self.open(BlockKind::Attribute, at),
+            "AttributeEnd" => self.close(BlockKind::Attribute, directive, at),
+            "TransformBegin" => {
+                let message = "`TransformBegin` and `TransformEnd` are of pbrt-v3 and save all attributes; \
+                               write `AttributeBegin` and `AttributeEnd`";
+                self.report.warn(at, message);
+                self.open(BlockKind::Attribute, at);
+            }
+            "TransformEnd" => self.close(BlockKind::Attribute, directive, at),
+            "ObjectBegin" => {
+                let name = parser.text()?;
+                self.object_begin(name, at);
+            }
+            "ObjectEnd" => {
+                if self.open_object.is_none() {
+                    self.report.error(at, "`ObjectEnd` closes no object; remove it");
+                } else {
+                    self.close(BlockKind::Object, directive, at);
+                    self.open_object = None;
+                }
+            }
+            "ObjectInstance" => {
+                let name = parser.text()?;
+                self.object_instance(name, at);
+            }
+            "Attribute" => self.attribute(parser)?,
+            _ => return Ok(false),
+        }
+        Ok(true)
+    }
+
+    fn world_begin(&mut self, at: Span) {
+        if let Some(first) = self.world {
+            let first = self.report.place(first);
+            self.report.error(at, format!("`WorldBegin` stood already at {first}; remove one"));
+            return;
+        }
+        self.world = Some(at);
+        self.graphics.ctm = [Transform::IDENTITY; 2];
+        self.graphics.active = [true; 2];
+        self.coordinate_systems.insert("world".into(), self.graphics.ctm);
+    }
+
+    pub(super) fn open(&mut self, kind: BlockKind, at: Span) {
+        self.blocks.push(Block { kind, at, saved: self.graphics.clone() });
+    }
+
+    /// How many blocks are open.
+    pub(super) fn n_open(&self) -> usize {
+        self.blocks.len()
+    }
+
+    /// Reports blocks beyond `n_open` that are still open, and closes them.
+    pub(super) fn close_all(&mut self, n_open: usize) {
+        while self.blocks.len() > n_open {
+            let Some(block) = self.blocks.pop() else { return };
+            let (opener, closer) = (block.kind.opener(), block.kind.closer());
+            self.report.error(block.at, format!("`{opener}` is never closed; add `{closer}`"));
+            if block.kind == BlockKind::Object {
+                self.open_object = None;
+            }
+            self.graphics = block.saved;
+        }
+    }
+
+    fn close(&mut self, kind: BlockKind, directive: &str, at: Span) {
+        let Some(block) = self.blocks.pop() else {
+            self.report
+                .error(at, format!("`{directive}` closes nothing; remove it or add `{}`", kind.opener()));
+            return;
+        };
+        if block.kind != kind {
+            let (opener, closer) = (block.kind.opener(), block.kind.closer());
+            let place = self.report.place(block.at);
+            let message = format!(
+                "`{directive}` stands where `{opener}` of {place} is open; close it with `{closer}` first"
+            );
+            self.report.error(at, message);
+            // The closer that is missing shall not bring a second message.
+            if block.kind == BlockKind::Object {
+                self.open_object = None;
+            }
+        }
+        self.graphics = block.saved;
+    }
+
+    fn object_begin(&mut self, (name, name_at): (String, Span), at: Span) {
+        let nested = self.open_object.as_ref().and_then(|o| self.objects.get(o)).map(|o| o.at);
+        if let Some(outer) = nested {
+            let place = self.report.place(outer);
+            let message = format!(
+                "objects cannot be nested, and that of {place} is open; close it with `ObjectEnd` first"
+            );
+            self.report.error(at, message);
+            // Its end closes a block like any other.
+            self.open(BlockKind::Attribute, at);
+            return;
+        }
+        self.open(BlockKind::Object, at);
+        if let Some(first) = self.objects.get(&name) {
+            let place = self.report.place(first.at);
+            self.report
+                .error(name_at, format!("the object \"{name}\" is defined already at {place}; rename one"));
+        }
+        self.objects.insert(name.clone(), Object { at, shapes: Vec::new() });
+        self.open_object = Some(name);
+    }
+
+    fn object_instance(&mut self, (name, name_at): (String, Span), at: Span) {
+        if self.open_object.is_some() {
+            self.report.error(at, "instances cannot stand inside an object; close it with `ObjectEnd` first");
+            return;
+        }
+        let to_world = self.ctm(at);
+        self.items.push(Item::Use(Box::new(Use { name, at: name_at, to_world })));
+    }
+
+    fn attribute(&mut self, parser: &mut Parser<'_>) -> Result<(), Diagnostic> {
+        let (name, at) = parser.text()?;
+        let params = parser.params(self.graphics.color_space, |d| self.report.push(d));
+        match Target::ALL.iter().find(|(n, _)| *n == name) {
+            Some(&(_, target)) => {
+                for p in &params {
+                    self.check_attribute(target, p);
+                }
+                self.graphics.inherit(target, params);
+            }
+            None => {
+                let remedy = remedy(&name, Target::ALL.iter().map(|t| t.0));
+                self.report.error(at, format!("`Attribute` has no target \"{name}\"; {remedy}"));
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,141 @@
+//! Statements to a scene: [`Builder`].
+//!
+//! As in pbrt-v4, statements only collect while the files are read; textures, materials and names are resolved
+//! when all is known, so that a shape may use a material that is defined behind it.
+
+mod blocks;
+mod camera;
+mod files;
+mod film;
+mod finish;
+mod graphics;
+mod integrator;
+mod lights;
+mod materials;
+mod mesh;
+mod shapes;
+mod spectrum;
+mod statements;
+mod textures;
+mod world;
+
+use std::collections::{BTreeMap, HashMap};
+use std::path::PathBuf;
+use std::rc::Rc;
+use std::sync::Arc;
+
+use sparrow_math::Transform;
+
+use crate::desc::{AreaLightDesc, LightDesc, Mesh};
+use crate::diagnostic::Span;
+use crate::params::Params;
+use crate::report::Report;
+use crate::tables::Entity;
+
+use blocks::Block;
+use graphics::Graphics;
+use materials::PendingMaterial;
+use shapes::{Item, Object};
+use textures::{PendingTexture, Textures};
+
+/// A statement before `WorldBegin`, checked; the last one of its kind counts.
+#[derive(Debug)]
+struct Statement {
+    entity: &'static Entity,
+    params: Params,
+    /// The current transform where it stands.
+    ctm: Transform,
+}
+
+/// The statements before `WorldBegin`.
+#[derive(Debug, Default)]
+struct Setup {
+    camera: Option<Statement>,
+    film: Option<Statement>,
+    filter: Option<Statement>,
+    sampler: Option<Statement>,
+    integrator: Option<Statement>,
+    seed: u64,
+}
+
+/// Takes statements and makes a [`SceneDesc`](crate::SceneDesc) of them.
+#[derive(Debug)]
+pub(crate) struct Builder {
+    report: Report,
+    /// Where relative paths start: the folder of the scene file, also for included files.
+    base_dir: PathBuf,
+    /// The files being read, outermost first, by their true paths.
+    open_files: Vec<PathBuf>,
+    n_includes: usize,
+    statements: BTreeMap<&'static str, BTreeMap<String, usize>>,
+
+    graphics: Graphics,
+    blocks: Vec<Block>,
+    /// `WorldBegin`, once it was read.
+    world: Option<Span>,
+    /// A statement that belongs behind `WorldBegin` stood before it; said once.
+    said_before_world: bool,
+    coordinate_systems: HashMap<String, [Transform; 2]>,
+
+    setup: Setup,
+    textures: Vec<PendingTexture>,
+    materials: Vec<PendingMaterial>,
+    named_materials: HashMap<Rc<str>, Span>,
+    media: HashMap<String, Span>,
+    /// Uses of media by name, to be checked at the end.
+    medium_uses: Vec<(String, Span)>,
+    lights: Vec<LightDesc>,
+    area_lights: Vec<AreaLightDesc>,
+    items: Vec<Item>,
+    objects: HashMap<String, Object>,
+    /// The object between `ObjectBegin` and `ObjectEnd`.
+    open_object: Option<String>,
+
+    /// Meshes by file; `None` for those that could not be read.
+    meshes: HashMap<PathBuf, Option<Arc<Mesh>>>,
+    spectra: spectrum::Cache,
+    made: Textures,
+}
+
+impl Builder {
+    /// An empty scene; relative paths start at `base_dir`.
+    pub(crate) fn new(base_dir: PathBuf) -> Self {
+        Builder {
+            report: Report::default(),
+            base_dir,
+            open_files: Vec::new(),
+            n_includes: 0,
+            statements: BTreeMap::new(),
+            graphics: Graphics::default(),
+            blocks: Vec::new(),
+            world: None,
+            said_before_world: false,
+            coordinate_systems: HashMap::new(),
+            setup: Setup::default(),
+            textures: Vec::new(),
+            materials: Vec::new(),
+            named_materials: HashMap::new(),
+            media: HashMap::new(),
+            medium_uses: Vec::new(),
+            lights: Vec::new(),
+            area_lights: Vec::new(),
+            items: Vec::new(),
+            objects: HashMap::new(),
+            open_object: None,
+            meshes: HashMap::new(),
+            spectra: spectrum::Cache::default(),
+            made: Textures::default(),
+        }
+    }
+
+    /// Counts a statement for [`SceneDesc::statements`](crate::SceneDesc::statements).
+    fn count(&mut self, directive: &'static str, type_name: &str) {
+        let types = self.statements.entry(directive).or_default();
+        match types.get_mut(type_name) {
+            Some(n) => *n += 1,
+            None => {
+                types.insert(type_name.to_string(), 1);
+            }
+        }
+    }
+}

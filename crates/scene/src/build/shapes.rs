@@ -1,0 +1,136 @@
+//! Shapes, and the objects that collect them.
+
+use sparrow_math::Transform;
+
+use super::Builder;
+use super::materials::MaterialRef;
+use crate::desc::{AreaLightId, ShapeKind};
+use crate::diagnostic::Span;
+use crate::params::Params;
+use crate::tables::{Entity, Support};
+
+/// What a shape's `alpha` says.
+#[derive(Clone, Debug)]
+pub(super) enum Alpha {
+    Opaque,
+    Constant(f32),
+    Texture(String, Span),
+}
+
+/// A shape whose material and textures are still names.
+#[derive(Clone, Debug)]
+pub(super) struct PendingShape {
+    pub(super) kind: ShapeKind,
+    pub(super) to_world: Transform,
+    pub(super) reverse_orientation: bool,
+    pub(super) material: MaterialRef,
+    pub(super) area_light: Option<AreaLightId>,
+    pub(super) alpha: Alpha,
+    pub(super) at: Span,
+}
+
+/// An object: shapes to be instanced.
+#[derive(Debug)]
+pub(super) struct Object {
+    pub(super) at: Span,
+    pub(super) shapes: Vec<PendingShape>,
+}
+
+/// An instance of an object.
+#[derive(Debug)]
+pub(super) struct Use {
+    pub(super) name: String,
+    pub(super) at: Span,
+    pub(super) to_world: Transform,
+}
+
+/// What the world is made of, in file order.
+#[derive(Debug)]
+pub(super) enum Item {
+    Shape(Box<PendingShape>),
+    Use(Box<Use>),
+}
+
+impl Builder {
+    /// A shape; its parameters have been checked.
+    pub(super) fn shape(&mut self, entity: &Entity, mut params: Params) {
+        if entity.support != Support::Yes {
+            return;
+        }
+        let to_world = self.ctm(params.at);
+        let Some(kind) = self.shape_kind(entity.name, &mut params) else { return };
+        let mut area_light = self.graphics.area_light;
+        if area_light.is_some() && self.open_object.is_some() {
+            self.no_light_in_objects(params.at);
+            area_light = None;
+        }
+        let shape = PendingShape {
+            kind,
+            to_world,
+            reverse_orientation: self.graphics.reverse_orientation,
+            material: self.graphics.material.clone(),
+            area_light,
+            alpha: alpha(&params),
+            at: params.at,
+        };
+        match self.open_object.as_ref().and_then(|name| self.objects.get_mut(name)) {
+            Some(object) => object.shapes.push(shape),
+            None => self.items.push(Item::Shape(Box::new(shape))),
+        }
+    }
+
+    fn shape_kind(&mut self, name: &str, params: &mut Params) -> Option<ShapeKind> {
+        match name {
+            "trianglemesh" => self.triangle_mesh(params).map(ShapeKind::Mesh),
+            "bilinearmesh" => self.bilinear_mesh(params).map(ShapeKind::Mesh),
+            "plymesh" => self.ply_mesh(params).map(ShapeKind::Mesh),
+            "sphere" => {
+                let radius = self.radius(params)?;
+                let [a, b] = [params.float_or("zmin", -radius), params.float_or("zmax", radius)];
+                let (z_min, z_max) = (a.min(b).clamp(-radius, radius), a.max(b).clamp(-radius, radius));
+                Some(ShapeKind::Sphere { radius, z_min, z_max, phi_max: phi_max(params) })
+            }
+            "disk" => {
+                let radius = self.radius(params)?;
+                let height = params.float_or("height", 0.0);
+                let inner_radius = params.float_or("innerradius", 0.0);
+                Some(ShapeKind::Disk { height, radius, inner_radius, phi_max: phi_max(params) })
+            }
+            _ => {
+                let radius = self.radius(params)?;
+                let [a, b] = [params.float_or("zmin", -1.0), params.float_or("zmax", 1.0)];
+                Some(ShapeKind::Cylinder {
+                    radius,
+                    z_min: a.min(b),
+                    z_max: a.max(b),
+                    phi_max: phi_max(params),
+                })
+            }
+        }
+    }
+
+    fn radius(&mut self, params: &Params) -> Option<f32> {
+        let radius = params.float_or("radius", 1.0);
+        if radius > 0.0 {
+            return Some(radius);
+        }
+        self.report.error(params.place("radius"), format!("\"radius\" is {radius}; give one above zero"));
+        None
+    }
+}
+
+/// Beyond a full turn pbrt-v4 takes a full turn.
+fn phi_max(params: &Params) -> f32 {
+    params.float_or("phimax", 360.0).clamp(0.0, 360.0)
+}
+
+fn alpha(params: &Params) -> Alpha {
+    // A texture goes before a number, whichever comes last.
+    if let Some((name, at)) = params.texture("alpha") {
+        return Alpha::Texture(name.to_string(), at);
+    }
+    match params.float("alpha") {
+        Some(a) if a < 1.0 => Alpha::Constant(a.max(0.0)),
+        Some(_) | None => Alpha::Opaque,
+    }
+}
