@@ -8,8 +8,8 @@
 //! uniform for `n` bins, 0.02 % for 4096.
 //!
 //! Weights that are negative or not finite count as zero. Where all weights are zero, the
-//! distribution is uniform. Memory: one `f32` per bin, plus one per row and four bytes for the ends; an environment
-//! map of 4096 x 4096 takes 64.0 MiB.
+//! distribution is uniform. Memory: one `f32` per bin, and 264 bytes per row; an environment map of
+//! 4096 x 4096 takes 65 MiB.
 
 use sparrow_math::ONE_MINUS_EPSILON;
 
@@ -49,13 +49,31 @@ fn close(cdf: &mut [f32]) {
     }
 }
 
-/// Bin that `u` falls into: the last one whose lower end is not above `u`.
+/// Parts of [0, 1) for which a search knows where to begin.
+const N_GUIDES: usize = 64;
+
+/// A cumulative table with the bins that `k / N_GUIDES` falls into, `k` in `0..=N_GUIDES`.
 ///
-/// Bins without width are passed over. `u` must lie in [0, 1).
+/// The guides leave a few entries of one or two cache lines to search, where halving the whole table
+/// would touch one line per step.
+#[derive(Clone, Copy)]
+struct Table<'a> {
+    cdf: &'a [f32],
+    guides: &'a [u32],
+}
+
+/// Writes the guides of a table.
+fn guide(cdf: &[f32], guides: &mut [u32]) {
+    for (k, g) in guides.iter_mut().enumerate() {
+        *g = search(cdf, k as f32 / N_GUIDES as f32, 0, cdf.len() - 2) as u32;
+    }
+}
+
+/// The last bin in `low..=high` whose lower end is not above `u`; `low` where there is none.
 #[inline]
-fn find(cdf: &[f32], u: f32) -> usize {
-    let mut low = 0;
-    let mut len = cdf.len() - 1;
+fn search(cdf: &[f32], u: f32, low: usize, high: usize) -> usize {
+    let mut low = low;
+    let mut len = high - low + 1;
     // Halves without branches on the data: the comparison becomes a conditional move.
     while len > 1 {
         let half = len / 2;
@@ -65,13 +83,48 @@ fn find(cdf: &[f32], u: f32) -> usize {
     low
 }
 
-/// Bin, place in it in [0, 1), and its probability.
-#[inline]
-fn draw(cdf: &[f32], u: f32) -> (usize, f32, f32) {
-    let u = u.clamp(0.0, ONE_MINUS_EPSILON);
-    let i = find(cdf, u);
-    let width = cdf[i + 1] - cdf[i];
-    (i, ((u - cdf[i]) / width).min(ONE_MINUS_EPSILON), width)
+impl Table<'_> {
+    /// Bin, place in it in [0, 1), and its probability. Bins without width are passed over.
+    #[inline]
+    fn draw(self, u: f32) -> (usize, f32, f32) {
+        let u = u.clamp(0.0, ONE_MINUS_EPSILON);
+        let k = (u * N_GUIDES as f32) as usize;
+        let i = search(self.cdf, u, self.guides[k] as usize, self.guides[k + 1] as usize);
+        let width = self.cdf[i + 1] - self.cdf[i];
+        (i, ((u - self.cdf[i]) / width).min(ONE_MINUS_EPSILON), width)
+    }
+}
+
+/// A cumulative table and its guides, of one dimension.
+#[derive(Clone, Debug)]
+struct Cumulative {
+    cdf: Vec<f32>,
+    guides: Vec<u32>,
+}
+
+impl Cumulative {
+    /// From at least one weight; also the sum of the weights.
+    fn new(weights: impl ExactSizeIterator<Item = f64> + Clone) -> (Cumulative, f64) {
+        let mut cdf = vec![0.0; weights.len() + 1];
+        let mut guides = vec![0; N_GUIDES + 1];
+        let total = accumulate(weights, &mut cdf);
+        guide(&cdf, &mut guides);
+        (Cumulative { cdf, guides }, total)
+    }
+    fn n_bins(&self) -> usize {
+        self.cdf.len() - 1
+    }
+    #[inline]
+    fn width(&self, i: usize) -> f32 {
+        self.cdf[i + 1] - self.cdf[i]
+    }
+    #[inline]
+    fn table(&self) -> Table<'_> {
+        Table { cdf: &self.cdf, guides: &self.guides }
+    }
+    fn bytes(&self) -> usize {
+        self.cdf.len() * size_of::<f32>() + self.guides.len() * size_of::<u32>()
+    }
 }
 
 /// Bin of `x` among `n` equal ones; numbers outside [0, 1) count as the nearest inside.
@@ -88,7 +141,7 @@ fn place(i: usize, t: f32, n: usize) -> f32 {
     if bin(x, n) == i { x } else { (i as f32 + 0.5) / n as f32 }
 }
 
-/// The inverse of [`draw`] and [`place`].
+/// The inverse of [`Table::draw`] and [`place`].
 #[inline]
 fn invert(cdf: &[f32], x: f32) -> f32 {
     let n = cdf.len() - 1;
@@ -111,7 +164,7 @@ pub struct Draw1 {
 /// A density over [0, 1) that is constant in each of `n` equal bins.
 #[derive(Clone, Debug)]
 pub struct Piecewise1 {
-    cdf: Vec<f32>,
+    cumulative: Cumulative,
     mean: f64,
 }
 
@@ -119,14 +172,12 @@ impl Piecewise1 {
     /// The density proportional to `f`, one value per bin; no value at all counts as one bin.
     pub fn new(f: &[f32]) -> Piecewise1 {
         let f = if f.is_empty() { &[0.0] } else { f };
-        let mut cdf = vec![0.0; f.len() + 1];
-        let total = accumulate(f.iter().map(|w| counted(*w)), &mut cdf);
-        let mean = total / (cdf.len() - 1) as f64;
-        Piecewise1 { cdf, mean }
+        let (cumulative, total) = Cumulative::new(f.iter().map(|w| counted(*w)));
+        Piecewise1 { cumulative, mean: total / f.len() as f64 }
     }
     /// Number of bins.
     pub fn n_bins(&self) -> usize {
-        self.cdf.len() - 1
+        self.cumulative.n_bins()
     }
     /// Integral of the counted values of `f` over [0, 1).
     pub fn integral(&self) -> f64 {
@@ -136,23 +187,22 @@ impl Piecewise1 {
     #[inline]
     pub fn sample(&self, u: f32) -> Draw1 {
         let n = self.n_bins();
-        let (index, t, width) = draw(&self.cdf, u);
+        let (index, t, width) = self.cumulative.table().draw(u);
         Draw1 { x: place(index, t, n), pdf: width * n as f32, index }
     }
     /// Density at `x`.
     #[inline]
     pub fn pdf(&self, x: f32) -> f32 {
-        let i = bin(x, self.n_bins());
-        (self.cdf[i + 1] - self.cdf[i]) * self.n_bins() as f32
+        self.cumulative.width(bin(x, self.n_bins())) * self.n_bins() as f32
     }
     /// The uniform number that [`Piecewise1::sample`] maps to `x`, up to rounding.
     #[inline]
     pub fn invert(&self, x: f32) -> f32 {
-        invert(&self.cdf, x)
+        invert(&self.cumulative.cdf, x)
     }
     /// Bytes held.
     pub fn bytes(&self) -> usize {
-        self.cdf.len() * size_of::<f32>()
+        self.cumulative.bytes()
     }
 }
 
@@ -174,8 +224,10 @@ pub struct Piecewise2 {
     height: usize,
     /// `width + 1` numbers per row.
     rows: Vec<f32>,
+    /// `N_GUIDES + 1` numbers per row.
+    guides: Vec<u32>,
     /// Which row.
-    marginal: Vec<f32>,
+    marginal: Cumulative,
     mean: f64,
 }
 
@@ -186,14 +238,16 @@ impl Piecewise2 {
     pub fn new(f: &[f32], width: usize, height: usize) -> Piecewise2 {
         let (width, height) = (width.max(1), height.max(1));
         let mut rows = vec![0.0; (width + 1) * height];
+        let mut guides = vec![0; (N_GUIDES + 1) * height];
         let mut totals = vec![0.0; height];
-        for (y, row) in rows.chunks_exact_mut(width + 1).enumerate() {
+        let per_row = rows.chunks_exact_mut(width + 1).zip(guides.chunks_exact_mut(N_GUIDES + 1));
+        for (y, (row, guides)) in per_row.enumerate() {
             let values = (0..width).map(|x| f.get(y * width + x).map_or(0.0, |w| counted(*w)));
             totals[y] = accumulate(values, row);
+            guide(row, guides);
         }
-        let mut marginal = vec![0.0; height + 1];
-        let total = accumulate(totals.iter().copied(), &mut marginal);
-        Piecewise2 { width, height, rows, marginal, mean: total / (width * height) as f64 }
+        let (marginal, total) = Cumulative::new(totals.iter().copied());
+        Piecewise2 { width, height, rows, guides, marginal, mean: total / (width * height) as f64 }
     }
     /// Columns and rows.
     pub fn size(&self) -> [usize; 2] {
@@ -210,8 +264,9 @@ impl Piecewise2 {
     /// A point with this density; `u[1]` chooses the row, `u[0]` the place in it.
     #[inline]
     pub fn sample(&self, u: [f32; 2]) -> Draw2 {
-        let (y, ty, py) = draw(&self.marginal, u[1]);
-        let (x, tx, px) = draw(self.row(y), u[0]);
+        let (y, ty, py) = self.marginal.table().draw(u[1]);
+        let guides = &self.guides[y * (N_GUIDES + 1)..(y + 1) * (N_GUIDES + 1)];
+        let (x, tx, px) = Table { cdf: self.row(y), guides }.draw(u[0]);
         Draw2 {
             p: [place(x, tx, self.width), place(y, ty, self.height)],
             pdf: px * py * (self.width * self.height) as f32,
@@ -223,17 +278,17 @@ impl Piecewise2 {
     pub fn pdf(&self, p: [f32; 2]) -> f32 {
         let (x, y) = (bin(p[0], self.width), bin(p[1], self.height));
         let row = self.row(y);
-        let (px, py) = (row[x + 1] - row[x], self.marginal[y + 1] - self.marginal[y]);
+        let (px, py) = (row[x + 1] - row[x], self.marginal.width(y));
         px * py * (self.width * self.height) as f32
     }
     /// The uniform numbers that [`Piecewise2::sample`] maps to `p`, up to rounding.
     #[inline]
     pub fn invert(&self, p: [f32; 2]) -> [f32; 2] {
-        [invert(self.row(bin(p[1], self.height)), p[0]), invert(&self.marginal, p[1])]
+        [invert(self.row(bin(p[1], self.height)), p[0]), invert(&self.marginal.cdf, p[1])]
     }
     /// Bytes held.
     pub fn bytes(&self) -> usize {
-        (self.rows.len() + self.marginal.len()) * size_of::<f32>()
+        self.rows.len() * size_of::<f32>() + self.guides.len() * size_of::<u32>() + self.marginal.bytes()
     }
 }
 
@@ -254,7 +309,7 @@ pub struct Choice {
 /// stratified items.
 #[derive(Clone, Debug)]
 pub struct Discrete {
-    cdf: Vec<f32>,
+    cumulative: Cumulative,
 }
 
 impl Discrete {
@@ -263,28 +318,26 @@ impl Discrete {
         if weights.is_empty() {
             return None;
         }
-        let mut cdf = vec![0.0; weights.len() + 1];
-        accumulate(weights.iter().map(|w| counted(*w)), &mut cdf);
-        Some(Discrete { cdf })
+        Some(Discrete { cumulative: Cumulative::new(weights.iter().map(|w| counted(*w))).0 })
     }
     /// Number of items.
     pub fn n_items(&self) -> usize {
-        self.cdf.len() - 1
+        self.cumulative.n_bins()
     }
     /// Chooses an item with `u` in [0, 1).
     #[inline]
     pub fn sample(&self, u: f32) -> Choice {
-        let (index, u, probability) = draw(&self.cdf, u);
+        let (index, u, probability) = self.cumulative.table().draw(u);
         Choice { index, probability, u }
     }
     /// Probability of an item; 0 where there is no such item.
     #[inline]
     pub fn probability(&self, index: usize) -> f32 {
-        if index < self.n_items() { self.cdf[index + 1] - self.cdf[index] } else { 0.0 }
+        if index < self.n_items() { self.cumulative.width(index) } else { 0.0 }
     }
     /// Bytes held.
     pub fn bytes(&self) -> usize {
-        self.cdf.len() * size_of::<f32>()
+        self.cumulative.bytes()
     }
 }
 
@@ -366,7 +419,7 @@ mod tests {
             let p = [((i % w) as f32 + 0.5) / w as f32, ((i / w) as f32 + 0.5) / h as f32];
             assert!((d.pdf(p) - want * 35.0).abs() < 1e-4 * 35.0, "cell {i}");
         }
-        assert_eq!(d.bytes(), (8 * 5 + 6) * 4);
+        assert_eq!(d.bytes(), (8 * 5 + 6 + 65 * 6) * 4);
     }
 
     #[test]

@@ -139,14 +139,17 @@ impl Filter {
 /// Cells per axis of the tabulated filters; even, so that the centre is an edge.
 const N_CELLS: usize = 256;
 
+/// Parts of [0, 1) for which a search knows where to begin; with these, it rarely has a step to go.
+const N_GUIDES: usize = 1024;
+
 /// One axis of a tabulated filter: constant per cell, each the mean of the filter over the cell.
 #[derive(Clone, Debug)]
 struct Axis {
     radius: f32,
     /// Cumulative shares of `|f|`.
     cdf: Vec<f32>,
-    /// Where the search for u in `[k / 64, (k + 1) / 64)` begins.
-    guide: [u8; 64],
+    /// Where the search for u in `[k, k + 1) / N_GUIDES` begins.
+    guide: Vec<u8>,
     negative: Vec<bool>,
     integral: f64,
     abs_integral: f64,
@@ -174,7 +177,7 @@ impl Axis {
             *c = 1.0;
         }
         let below = |u: f32| cdf.partition_point(|c| *c <= u).clamp(1, N_CELLS) - 1;
-        let guide = core::array::from_fn(|k| below(k as f32 / 64.0) as u8);
+        let guide = (0..N_GUIDES).map(|k| below(k as f32 / N_GUIDES as f32) as u8).collect();
         let negative = means.iter().map(|m| *m < 0.0).collect();
         Axis {
             radius,
@@ -189,7 +192,7 @@ impl Axis {
     /// Offset and sign.
     #[inline]
     fn sample(&self, u: f32) -> (f32, bool) {
-        let mut i = usize::from(self.guide[((u * 64.0) as usize).min(63)]);
+        let mut i = usize::from(self.guide[((u * N_GUIDES as f32) as usize).min(N_GUIDES - 1)]);
         while i + 1 < N_CELLS && self.cdf[i + 1] <= u {
             i += 1;
         }
@@ -229,7 +232,7 @@ pub struct FilterSampler {
 }
 
 impl FilterSampler {
-    /// Prepares the tables: 3 KiB where there are any.
+    /// Prepares the tables: 5 KiB where there are any.
     pub fn new(filter: &Filter) -> FilterSampler {
         let [rx, ry] = filter.radius().map(f64::from);
         let (plan, integral, abs_integral) = match filter {

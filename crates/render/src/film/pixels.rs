@@ -240,7 +240,7 @@ impl Film {
     }
 }
 
-/// Variance of the ratio `sum(w x) / sum(w)`: `n / (n - 1) * sum(w^2 (x - mean)^2) / sum(w)^2`. [Cochran1977, eq. 2.46]
+/// Variance of the ratio `sum(w x) / sum(w)`: `n / (n - 1) * sum(w^2 (x - mean)^2) / sum(w)^2`. [Cochran1977, ch. 6]
 fn variance(squares: &RawSquares, c: usize, mean: f64, weight: f64, n: u32) -> f64 {
     if n < 2 || weight.abs() < WEIGHT_STEP || squares.rgb_sqr[c] == u128::MAX {
         return f64::INFINITY;

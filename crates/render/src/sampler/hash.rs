@@ -38,7 +38,7 @@ pub(crate) fn below_one(x: f32) -> f32 {
 /// Where `i` goes in the permutation of `0..n` that `key` names; `i < n`.
 ///
 /// A few invertible steps on the bits that `n - 1` needs, repeated until the result lies below `n`,
-/// as in [Kensler2013, sec. 3].
+/// as in [Kensler2013].
 #[inline]
 pub(crate) fn permute(i: u32, n: u32, key: u64) -> u32 {
     debug_assert!(i < n, "a permutation of 0..{n} has no place {i}");

@@ -24,7 +24,7 @@ pub(crate) struct SobolTables {
     to_pixel: Vec<u64>,
 }
 
-/// Columns of dimension `d` as binary fractions, by the recurrence of [JoeKuo2008, eq. 2].
+/// Columns of dimension `d` as binary fractions, by the recurrence of [JoeKuo2008].
 fn columns(d: usize) -> [u32; N_COLUMNS] {
     let mut v = [0u32; N_COLUMNS];
     if d == 0 {
@@ -114,7 +114,7 @@ impl SobolTables {
         rows.into_iter().map(|row| row.1).collect()
     }
 
-    /// Index of the `sample`-th point of the sequence that falls into `pixel`. [Gruenschloss2012, sec. 3]
+    /// Index of the `sample`-th point of the sequence that falls into `pixel`. [Gruenschloss2012]
     #[inline]
     pub(crate) fn index(&self, pixel: [u32; 2], sample: u32) -> u64 {
         let m = self.log2_side;
