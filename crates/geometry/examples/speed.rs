@@ -4,7 +4,7 @@
 use std::time::Instant;
 
 use sparrow_geometry::{BilinearMesh, Geometry, Ray, Shape, ShapeInstance, TriangleMesh};
-use sparrow_math::{Frame, LocalDir, Real, Transform, Vec3, vec3, warp};
+use sparrow_math::{Frame, LocalDir, Real, Transform, vec3, warp};
 
 /// Uniform numbers in [0, 1). [Steele2014]
 struct Rng(u64);
@@ -64,36 +64,77 @@ fn room() -> ShapeInstance {
     placed(Shape::Patches(mesh))
 }
 
-/// Follows diffuse bounces and prints what a ray cost.
-fn bounce(name: &str, geometry: &Geometry, paths: u32, with_surface: bool) {
-    let mut rng = Rng(7);
-    let (mut rays, mut hits, mut shadow) = (0u32, 0u32, 0u32);
-    let start = Instant::now();
-    for _ in 0..paths {
+/// What is timed.
+#[derive(Clone, Copy, PartialEq)]
+enum Work {
+    /// Nearest points, the surface there, and the next direction.
+    Bounce,
+    /// The same, and a shadow ray from each point.
+    Shadow,
+    /// Nearest points alone, of rays gathered beforehand.
+    Closest,
+    /// Shadow rays alone.
+    Occluded,
+}
+
+/// Rays of diffuse paths of four segments.
+fn paths(geometry: &Geometry, n: u32, rng: &mut Rng, shadow: bool, mut each: impl FnMut(Ray)) -> u32 {
+    let mut shadowed = 0;
+    for _ in 0..n {
         let mut ray = Ray::new(vec3(1.7, -1.6, 1.1), vec3(-1.0 + rng.next(), 1.0, -rng.next()));
         for _ in 0..4 {
-            rays += 1;
+            each(ray);
             let Some(hit) = geometry.intersect(&ray) else { break };
-            hits += 1;
             let s = geometry.surface(&ray, &hit);
             let n = if s.ng.dot(ray.d) > 0.0 { -s.ng } else { s.ng };
             let w = Frame::from_z(n).to_world(LocalDir::new(warp::cosine_hemisphere(rng.pair())));
-            if with_surface {
-                shadow += u32::from(geometry.occluded(&s.spawn_to(vec3(0.0, 0.0, 1.9))));
+            if shadow {
+                let to_lamp = s.spawn_to(vec3(0.0, 0.0, 1.9));
+                each(to_lamp);
+                shadowed += u32::from(geometry.occluded(&to_lamp));
             }
             ray = s.spawn(w);
         }
     }
-    let ns = start.elapsed().as_secs_f64() * 1e9 / f64::from(rays);
-    println!("{name}: {ns:.0} ns a ray, {rays} rays, {hits} hits, {shadow} shadowed");
+    shadowed
+}
+
+/// Prints the nanoseconds a ray takes: the best of many short runs, as others may use the machine.
+fn time(name: &str, geometry: &Geometry, work: Work, repeats: u32) {
+    const PATHS: u32 = 4000;
+    let (mut best, mut sum) = (f64::INFINITY, 0);
+    for repeat in 0..repeats {
+        let mut rng = Rng(u64::from(repeat));
+        let mut rays = Vec::new();
+        if matches!(work, Work::Closest | Work::Occluded) {
+            paths(geometry, PATHS, &mut rng, work == Work::Occluded, |r| rays.push(r));
+        }
+        rays.retain(|r| (work == Work::Occluded) == r.t_max.is_finite());
+        let mut n = rays.len() as u32;
+        let start = Instant::now();
+        match work {
+            Work::Bounce => sum += paths(geometry, PATHS, &mut rng, false, |_| n += 1),
+            Work::Shadow => sum += paths(geometry, PATHS, &mut rng, true, |_| n += 1),
+            Work::Closest => sum += rays.iter().filter(|r| geometry.intersect(r).is_some()).count() as u32,
+            Work::Occluded => sum += rays.iter().filter(|r| geometry.occluded(r)).count() as u32,
+        }
+        best = best.min(start.elapsed().as_secs_f64() * 1e9 / f64::from(n));
+    }
+    println!("{name}: {best:.0} ns a ray (check {sum})");
+}
+
+fn all(name: &str, geometry: &Geometry, repeats: u32) {
+    println!("{name}: {:?}", geometry.stats());
+    time("  nearest point", geometry, Work::Closest, repeats);
+    time("  shadow", geometry, Work::Occluded, repeats);
+    time("  nearest point, surface, next direction", geometry, Work::Bounce, repeats);
+    time("  the same and shadow rays", geometry, Work::Shadow, repeats);
 }
 
 fn main() {
-    let n = std::env::args().nth(1).and_then(|a| a.parse().ok()).unwrap_or(740);
-    let geometry = Geometry::build(vec![ball(n), room()]);
-    println!("{:?}", geometry.stats());
-    bounce("ball in a room", &geometry, 500_000, false);
-    bounce("ball in a room, with shadow rays", &geometry, 500_000, true);
+    let number = |i: usize, or: u32| std::env::args().nth(i).and_then(|a| a.parse().ok()).unwrap_or(or);
+    let (n, repeats) = (number(1, 740), number(2, 30));
+    all("ball in a room", &Geometry::build(vec![ball(n), room()]), repeats);
     let sphere = |x: f64, y: f64, r: f32| ShapeInstance {
         shape: Shape::Sphere { radius: r, z_min: -r, z_max: r, phi_max: core::f32::consts::TAU },
         to_world: Transform::translate(vec3(x, y, -1.0)),
@@ -101,12 +142,7 @@ fn main() {
     };
     let mut few = vec![room(), sphere(-0.8, 0.5, 0.7), sphere(0.8, 0.2, 0.5)];
     few.push(ball(1));
-    let block = vec![ball(2)];
-    few.extend(block);
-    println!("{:?}", Geometry::build(vec![room()]).stats());
-    bounce("room alone", &Geometry::build(vec![room()]), 1_000_000, false);
-    let few = Geometry::build(few);
-    println!("{:?}", few.stats());
-    bounce("room with spheres", &few, 1_000_000, false);
-    let _: Vec3<f32> = few.bounds().center();
+    few.push(ball(2));
+    all("room", &Geometry::build(vec![room()]), repeats);
+    all("room with spheres", &Geometry::build(few), repeats);
 }

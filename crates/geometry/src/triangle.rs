@@ -29,7 +29,8 @@ fn mix(b: [f32; 3], p: [Vec3<f32>; 3]) -> Vec3<f32> {
 /// The value of a list at three places.
 #[inline(always)]
 fn pick(list: &[[f32; 3]], at: [u32; 3]) -> [Vec3<f32>; 3] {
-    at.map(|i| list[i as usize].into())
+    let p = |i: usize| Vec3::from(list[at[i] as usize]);
+    [p(0), p(1), p(2)]
 }
 
 /// `a b - c d`, where the two sides may cancel.
@@ -100,7 +101,9 @@ impl Triangles {
     /// The corners of a triangle that is in the tree.
     #[inline(always)]
     pub(crate) fn raw_corners(&self, prim: u32) -> [[f32; 3]; 3] {
-        self.mesh.indices[prim as usize].map(|i| self.mesh.p[i as usize])
+        let at = self.mesh.indices[prim as usize];
+        let p = |i: usize| self.mesh.p[at[i] as usize];
+        [p(0), p(1), p(2)]
     }
     fn corners(&self, prim: u32) -> [Vec3<f32>; 3] {
         self.raw_corners(prim).map(Vec3::from)
@@ -127,7 +130,8 @@ impl Triangles {
         Parametrisation::new(if self.mesh.uv.is_empty() {
             [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]]
         } else {
-            at.map(|i| self.mesh.uv[i as usize])
+            let uv = |i: usize| self.mesh.uv[at[i] as usize];
+            [uv(0), uv(1), uv(2)]
         })
     }
     /// The interpolated shading normal, where the mesh has one.

@@ -3,6 +3,8 @@
 //! Watertight [Woop2013]: the ray is sheared to the z axis, and the signs of the three edge functions decide. Two
 //! triangles that share an edge see the same products there, so no ray passes between them.
 
+use sparrow_math::Vec3;
+
 use super::lanes::F4;
 use super::node::RayData;
 use crate::ray::Ray;
@@ -33,14 +35,23 @@ pub(crate) const fn gamma(n: u32) -> f32 {
     e / (1.0 - e)
 }
 
-impl TriBlock {
-    pub(crate) const EMPTY: TriBlock = TriBlock { p: [[F4([f32::NAN; 4]); 3]; 3], id: [u32::MAX; 4] };
+/// Corners, brought to where the ray runs along z from the origin; z stays unscaled.
+#[inline(always)]
+fn sheared(p: &[F4; 3], r: &RayData) -> [F4; 3] {
+    let [kx, ky, kz] = r.k;
+    let z = p[kz] - r.o_k[2];
+    [p[kx] - r.o_k[0] - r.s[0] * z, p[ky] - r.o_k[1] - r.s[1] * z, z]
+}
 
+impl TriBlock {
+    pub(crate) fn empty() -> TriBlock {
+        TriBlock { p: [[F4::splat(f32::NAN); 3]; 3], id: [u32::MAX; 4] }
+    }
     pub(crate) fn set(&mut self, i: usize, id: u32, corners: &[[f32; 3]; 3]) {
         self.id[i] = id;
         for (to, from) in self.p.iter_mut().zip(corners) {
             for (to, from) in to.iter_mut().zip(from) {
-                to.0[i] = *from;
+                to.set(i, *from);
             }
         }
     }
@@ -48,14 +59,7 @@ impl TriBlock {
     /// Offers every point of the ray before `t_max` to `found`, which answers with the new `t_max`.
     #[inline(always)]
     pub(crate) fn hit(&self, ray: &Ray, r: &RayData, t_max: f32, mut found: impl FnMut(RawHit) -> f32) {
-        let [kx, ky, kz] = r.k;
-        let sheared = |p: &[F4; 3]| {
-            let z = p[kz] - F4::splat(r.o[kz]);
-            let x = p[kx] - F4::splat(r.o[kx]) - F4::splat(r.s[0]) * z;
-            let y = p[ky] - F4::splat(r.o[ky]) - F4::splat(r.s[1]) * z;
-            [x, y, z]
-        };
-        let [a, b, c] = [sheared(&self.p[0]), sheared(&self.p[1]), sheared(&self.p[2])];
+        let [a, b, c] = [sheared(&self.p[0], r), sheared(&self.p[1], r), sheared(&self.p[2], r)];
         let u = c[0] * b[1] - c[1] * b[0];
         let v = a[0] * c[1] - a[1] * c[0];
         let w = b[0] * a[1] - b[1] * a[0];
@@ -65,15 +69,15 @@ impl TriBlock {
             return;
         }
         let det = u + v + w;
-        let t = (u * a[2] + v * b[2] + w * c[2]) * F4::splat(r.s[2]) / det;
+        let t = (u * a[2] + v * b[2] + w * c[2]) * r.s[2] / det;
         let mut mask = inside & zero.lt(t) & t.lt(F4::splat(t_max));
         let mut t_max = t_max;
         while mask != 0 {
             let i = mask.trailing_zeros() as usize & 3;
             mask &= mask - 1;
-            let one = |p: [F4; 3]| [p[0].0[i], p[1].0[i], p[2].0[i]];
-            let s = Sheared { p: [one(a), one(b), one(c)], e: [u.0[i], v.0[i], w.0[i]], t: t.0[i] };
-            let Some((t, b1, b2)) = s.settle(|| self.exact_t(ray, i), r.s[2]) else { continue };
+            let one = |p: [F4; 3]| p.map(|x| x.to_array()[i]);
+            let s = Sheared { p: [one(a), one(b), one(c)], e: one([u, v, w]), t: t.to_array()[i] };
+            let Some((t, b1, b2)) = s.settle(|| self.exact_t(ray, i), r.sz) else { continue };
             if t < t_max {
                 t_max = found(RawHit { t, id: self.id[i], u: b1, v: b2 });
             }
@@ -83,7 +87,7 @@ impl TriBlock {
     /// The plane's ray parameter in double precision.
     #[cold]
     fn exact_t(&self, ray: &Ray, i: usize) -> f32 {
-        let corner = |p: &[F4; 3]| sparrow_math::vec3(p[0].0[i], p[1].0[i], p[2].0[i]).to_f64();
+        let corner = |p: &[F4; 3]| Vec3::from(p.map(|x| x.to_array()[i])).to_f64();
         let a = corner(&self.p[0]);
         let n = (corner(&self.p[1]) - a).cross(corner(&self.p[2]) - a);
         ((a - ray.o.to_f64()).dot(n) / ray.d.to_f64().dot(n)) as f32

@@ -86,7 +86,7 @@ fn four_parts(range: Range, depth: u32) -> Vec<Range> {
 /// Puts a node over subtrees, in one list: the node, then the subtrees one after the other.
 fn join(boxes: &[Aabb], subtrees: Vec<Subtree>) -> Subtree {
     let mut nodes = Vec::with_capacity(1 + subtrees.iter().map(|s| s.nodes.len()).sum::<usize>());
-    let mut root = Node::EMPTY;
+    let mut root = Node::empty();
     let mut deepest = 0;
     let siblings = subtrees.len() - 1;
     nodes.push(root);
@@ -94,8 +94,8 @@ fn join(boxes: &[Aabb], subtrees: Vec<Subtree>) -> Subtree {
         let offset = nodes.len();
         root.child[i] = s.root.moved(offset);
         for axis in 0..3 {
-            root.bounds[axis][0].0[i] = b.lo[axis];
-            root.bounds[axis][1].0[i] = b.hi[axis];
+            root.bounds[axis][0].set(i, b.lo[axis]);
+            root.bounds[axis][1].set(i, b.hi[axis]);
         }
         deepest = deepest.max(s.stack);
         nodes.extend(s.nodes.iter().map(|n| Node { child: n.child.map(|c| c.moved(offset)), ..*n }));
@@ -150,7 +150,7 @@ impl Bvh {
         }
         let Leaves { ids, triangles, others } = leaves;
         let gather = |&(first, len): &(u32, u8)| {
-            let mut block = TriBlock::EMPTY;
+            let mut block = TriBlock::empty();
             let first = first as usize;
             for (i, &id) in ids[first..first + usize::from(len)].iter().enumerate() {
                 block.set(i, id, &corners(id));

@@ -1,58 +1,50 @@
 //! Four `f32` side by side: what a node's children or a leaf's triangles are tested with.
 //!
-//! Plain arrays, spelt out element by element: the compiler makes one SSE2 or NEON instruction of each
-//! operation. A later wider kernel replaces this file and the two tests that use it.
+//! On the crate `wide`, which writes one machine instruction for each operation: plain arrays were tried, and the
+//! compiler put them together across the wrong elements. A later wider kernel replaces this file and the two tests
+//! that use it.
 
 use core::ops::{Add, Div, Mul, Sub};
 
-/// Four numbers.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[repr(C, align(16))]
-pub(crate) struct F4(pub(crate) [f32; 4]);
+use wide::f32x4;
 
-/// One expression per element, unrolled.
-macro_rules! each {
-    ($x:expr, $y:expr; $a:ident, $b:ident => $e:expr) => {{
-        let one = |i: usize| {
-            let ($a, $b) = ($x.0[i], $y.0[i]);
-            $e
-        };
-        F4([one(0), one(1), one(2), one(3)])
-    }};
-}
+/// Four numbers.
+#[derive(Clone, Copy, Debug)]
+#[repr(transparent)]
+pub(crate) struct F4(f32x4);
 
 impl F4 {
     #[inline(always)]
     pub(crate) fn splat(v: f32) -> F4 {
-        F4([v; 4])
+        F4(f32x4::splat(v))
     }
-    /// The smaller; `o` where either is NaN, as the machine instruction does.
+    #[inline(always)]
+    pub(crate) fn to_array(self) -> [f32; 4] {
+        self.0.to_array()
+    }
+    /// Changes one of the numbers.
+    pub(crate) fn set(&mut self, i: usize, v: f32) {
+        self.0.as_mut_array()[i] = v;
+    }
+    /// The smaller; either where one is NaN.
     #[inline(always)]
     pub(crate) fn min(self, o: F4) -> F4 {
-        each!(self, o; a, b => if a < b { a } else { b })
+        F4(self.0.fast_min(o.0))
     }
-    /// The larger; `o` where either is NaN.
+    /// The larger; either where one is NaN.
     #[inline(always)]
     pub(crate) fn max(self, o: F4) -> F4 {
-        each!(self, o; a, b => if a > b { a } else { b })
+        F4(self.0.fast_max(o.0))
     }
     /// Bit i says whether `self[i] <= o[i]`.
     #[inline(always)]
     pub(crate) fn le(self, o: F4) -> u32 {
-        let (a, b) = (self.0, o.0);
-        u32::from(a[0] <= b[0])
-            | u32::from(a[1] <= b[1]) << 1
-            | u32::from(a[2] <= b[2]) << 2
-            | u32::from(a[3] <= b[3]) << 3
+        self.0.simd_le(o.0).to_bitmask()
     }
     /// Bit i says whether `self[i] < o[i]`.
     #[inline(always)]
     pub(crate) fn lt(self, o: F4) -> u32 {
-        let (a, b) = (self.0, o.0);
-        u32::from(a[0] < b[0])
-            | u32::from(a[1] < b[1]) << 1
-            | u32::from(a[2] < b[2]) << 2
-            | u32::from(a[3] < b[3]) << 3
+        self.0.simd_lt(o.0).to_bitmask()
     }
 }
 
@@ -62,7 +54,7 @@ macro_rules! op {
             type Output = F4;
             #[inline(always)]
             fn $f(self, o: F4) -> F4 {
-                each!(self, o; a, b => a $o b)
+                F4(self.0 $o o.0)
             }
         }
     )* }

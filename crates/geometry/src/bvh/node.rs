@@ -56,17 +56,20 @@ pub(crate) struct Node {
 
 impl Node {
     /// A node whose four boxes are never hit.
-    pub(crate) const EMPTY: Node =
-        Node { bounds: [[F4([f32::INFINITY; 4]), F4([f32::NEG_INFINITY; 4])]; 3], child: [Child::NONE; 4] };
+    pub(crate) fn empty() -> Node {
+        let none = [F4::splat(f32::INFINITY), F4::splat(f32::NEG_INFINITY)];
+        Node { bounds: [none; 3], child: [Child::NONE; 4] }
+    }
 
     /// The boxes met between 0 and `t_max`, one bit each, and where the ray enters them.
     #[inline(always)]
     pub(crate) fn hit(&self, r: &RayData, t_max: f32) -> (u32, F4) {
-        let near = |a: usize| (self.bounds[a][r.neg[a] & 1] - F4::splat(r.o[a])) * F4::splat(r.inv_near[a]);
-        let far =
-            |a: usize| (self.bounds[a][1 - (r.neg[a] & 1)] - F4::splat(r.o[a])) * F4::splat(r.inv_far[a]);
-        let t0 = near(0).max(near(1)).max(near(2)).max(F4::splat(0.0));
-        let t1 = far(0).min(far(1)).min(far(2)).min(F4::splat(t_max));
+        let [x, y, z] = &self.bounds;
+        let [i, j, k] = r.neg;
+        let near = |b: &[F4; 2], a: usize, i: usize| (b[i & 1] - r.o[a]) * r.inv_near[a];
+        let far = |b: &[F4; 2], a: usize, i: usize| (b[1 - (i & 1)] - r.o[a]) * r.inv_far[a];
+        let t0 = near(x, 0, i).max(near(y, 1, j)).max(near(z, 2, k)).max(F4::splat(0.0));
+        let t1 = far(x, 0, i).min(far(y, 1, j)).min(far(z, 2, k)).min(F4::splat(t_max));
         (t0.le(t1), t0)
     }
 }
@@ -74,19 +77,23 @@ impl Node {
 /// A ray with what the tests need of it, worked out once.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct RayData {
-    pub(crate) o: [f32; 3],
+    /// Origin; like the next two in every lane, so that no test has to spread them.
+    o: [F4; 3],
     /// 1 where the direction is negative: the upper face is the near one.
     neg: [usize; 3],
     /// Reciprocal direction, drawn in for entries and stretched for exits.
     ///
     /// By eight units in the last place: more than the box test and the shear of the triangle test can err
     /// together, so that no ray slips between two boxes that touch. [Ize2013; Woop2013, section 4]
-    inv_near: [f32; 3],
-    inv_far: [f32; 3],
+    inv_near: [F4; 3],
+    inv_far: [F4; 3],
     /// The axes, permuted: the last is the one along which the direction is longest.
     pub(crate) k: [usize; 3],
+    /// The origin, its axes permuted likewise.
+    pub(crate) o_k: [F4; 3],
     /// Shear and scale that bring the direction to (0, 0, 1). [Woop2013, section 3.2]
-    pub(crate) s: [f32; 3],
+    pub(crate) s: [F4; 3],
+    pub(crate) sz: f32,
 }
 
 impl RayData {
@@ -111,12 +118,14 @@ impl RayData {
         let inv = [inv(d.x), inv(d.y), inv(d.z)];
         const PAD: f32 = 8.0 * f32::EPSILON;
         RayData {
-            o: [ray.o.x, ray.o.y, ray.o.z],
+            o: [F4::splat(ray.o.x), F4::splat(ray.o.y), F4::splat(ray.o.z)],
             neg: inv.map(|v| usize::from(v < 0.0)),
-            inv_near: inv.map(|v| v * (1.0 - PAD)),
-            inv_far: inv.map(|v| v * (1.0 + PAD)),
+            inv_near: inv.map(|v| F4::splat(v * (1.0 - PAD))),
+            inv_far: inv.map(|v| F4::splat(v * (1.0 + PAD))),
             k: [kx, ky, kz],
-            s: [d[kx] * sz, d[ky] * sz, sz],
+            o_k: [F4::splat(ray.o[kx]), F4::splat(ray.o[ky]), F4::splat(ray.o[kz])],
+            s: [F4::splat(d[kx] * sz), F4::splat(d[ky] * sz), F4::splat(sz)],
+            sz,
         }
     }
 }

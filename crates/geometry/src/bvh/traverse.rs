@@ -12,24 +12,12 @@ pub(crate) trait Others {
     fn hit(&self, id: u32, ray: &Ray, t_max: f32, found: &mut impl FnMut(RawHit) -> f32) -> f32;
 }
 
-/// A child and where the ray enters its box; as one number it sorts by that distance.
-#[derive(Clone, Copy)]
-struct Entry(u64);
-
-impl Entry {
-    #[inline(always)]
-    fn new(t: f32, child: Child) -> Entry {
-        // Distances are not negative, so their bits sort as they do.
-        Entry(u64::from(t.to_bits()) << 32 | u64::from(child.0))
-    }
-    #[inline(always)]
-    fn t(self) -> f32 {
-        f32::from_bits((self.0 >> 32) as u32)
-    }
-    #[inline(always)]
-    fn child(self) -> Child {
-        Child(self.0 as u32)
-    }
+/// A child and where the ray enters its box, as one number that sorts by that distance.
+///
+/// Distances are not negative, so their bits sort as they do. No entry of a child is 0: the root is nobody's child.
+#[inline(always)]
+fn entry(t: f32, child: Child) -> u64 {
+    u64::from(t.to_bits()) << 32 | u64::from(child.0)
 }
 
 /// What is left to visit, nearest on top.
@@ -39,58 +27,39 @@ struct Stack<const N: usize> {
 }
 
 impl<const N: usize> Stack<N> {
-    #[inline(always)]
-    fn push(&mut self, e: Entry) {
-        debug_assert!(self.len < N, "the stack was sized by the tree");
-        if let Some(place) = self.entries.get_mut(self.len) {
-            *place = e.0;
-            self.len += 1;
-        }
-    }
     /// The next child whose box begins before `t_max`.
     #[inline(always)]
     fn pop(&mut self, t_max: f32) -> Option<Child> {
         while self.len > 0 {
             self.len -= 1;
-            let e = Entry(*self.entries.get(self.len)?);
-            if e.t() < t_max {
-                return Some(e.child());
+            let e = *self.entries.get(self.len)?;
+            if f32::from_bits((e >> 32) as u32) < t_max {
+                return Some(Child(e as u32));
             }
         }
         None
     }
-    /// Goes on to the nearest child met and keeps the others.
+    /// Goes on to the nearest child met and puts the others on top. From two on there are no branches: how many
+    /// there are, and in what order, cannot be foretold.
     #[inline(always)]
-    fn descend(&mut self, node: &Node, mut mask: u32, t: [f32; 4]) -> Child {
-        let entry = |i: usize| Entry::new(t[i & 3], node.child[i & 3]);
-        let mut next = entry(mask.trailing_zeros() as usize);
-        mask &= mask - 1;
-        if mask == 0 {
-            return next.child();
+    fn descend(&mut self, node: &Node, mask: u32, t: [f32; 4]) -> Child {
+        if mask & (mask - 1) == 0 {
+            return node.child[mask.trailing_zeros() as usize & 3];
         }
-        let base = self.len;
-        while mask != 0 {
-            let e = entry(mask.trailing_zeros() as usize);
-            mask &= mask - 1;
-            let (near, far) = (Entry(next.0.min(e.0)), Entry(next.0.max(e.0)));
-            next = near;
-            self.push(far);
+        let key = |i: usize| entry(t[i], node.child[i]) * u64::from(mask >> i & 1);
+        // A sorting network, farthest first; the children missed are 0 and end up beyond the top.
+        let order = |a: u64, b: u64| (a.max(b), a.min(b));
+        let ((a, b), (c, d)) = (order(key(0), key(1)), order(key(2), key(3)));
+        let ((a, c), (b, d)) = (order(a, c), order(b, d));
+        let (b, c) = order(b, c);
+        let keys = [a, b, c, d];
+        let rest = mask.count_ones() as usize - 1;
+        debug_assert!(self.len + 4 <= N, "the stack was sized by the tree");
+        if let Some(top) = self.entries.get_mut(self.len..self.len + 4) {
+            top.copy_from_slice(&keys);
+            self.len += rest;
         }
-        // At most three were pushed; the nearest of them belongs on top.
-        let order = |s: &mut [u64; N], i: usize, j: usize| {
-            if let (Some(&a), Some(&b)) = (s.get(i), s.get(j)) {
-                s[i] = a.max(b);
-                s[j] = a.min(b);
-            }
-        };
-        if self.len - base >= 2 {
-            order(&mut self.entries, base, base + 1);
-            if self.len - base == 3 {
-                order(&mut self.entries, base + 1, base + 2);
-                order(&mut self.entries, base, base + 1);
-            }
-        }
-        next.child()
+        Child(keys[rest & 3] as u32)
     }
 }
 
@@ -105,8 +74,8 @@ impl Bvh {
     ) -> Option<RawHit> {
         // A stack is cleared before use, which a small tree should not pay a large one for.
         match self.stack {
-            0..=24 => self.walk::<ANY, 24>(ray, others, accept),
-            25..=64 => self.walk::<ANY, 64>(ray, others, accept),
+            0..=20 => self.walk::<ANY, 24>(ray, others, accept),
+            21..=60 => self.walk::<ANY, 64>(ray, others, accept),
             _ => self.walk::<ANY, 512>(ray, others, accept),
         }
     }
@@ -129,7 +98,7 @@ impl Bvh {
                 let node = &self.nodes[child.index()];
                 let (mask, t) = node.hit(&r, t_max);
                 if mask != 0 {
-                    child = stack.descend(node, mask, t.0);
+                    child = stack.descend(node, mask, t.to_array());
                     continue;
                 }
             } else {

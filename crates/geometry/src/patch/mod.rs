@@ -84,7 +84,9 @@ impl Patches {
         12 * (m.p.len() + m.n.len()) + 8 * m.uv.len() + 17 * m.indices.len()
     }
     fn corners(&self, prim: u32) -> [Vec3<f32>; 4] {
-        self.mesh.indices[prim as usize].map(|i| self.mesh.p[i as usize].into())
+        let [a, b, c, d] = self.mesh.indices[prim as usize];
+        let p = |i: u32| Vec3::from(self.mesh.p[i as usize]);
+        [p(a), p(b), p(c), p(d)]
     }
     fn bilinear(&self, prim: u32) -> Bilinear {
         Bilinear::new(self.corners(prim))
