@@ -51,6 +51,31 @@ impl Camera {
         &self.to_world
     }
 
+    /// Camera space to the film, for column vectors (`m[row][column]`): divided by the fourth coordinate, x and y are
+    /// pixels from the top left corner. z grows with depth, from 0 to 1 between 0.01 and 1000 as in pbrt-v4.
+    ///
+    /// Points in the plane of focus land where [`ray`](Self::ray) came from; a lens blurs the others.
+    pub fn film_from_camera(&self) -> [[f64; 4]; 4] {
+        let ([cx, cy], [sx, sy]) = (self.corner.map(f64::from), self.step.map(f64::from));
+        let (near, far) = (1e-2, 1e3);
+        let (depth, shift) = (1.0 / (far - near), near / (far - near));
+        if self.perspective {
+            [
+                [1.0 / sx, 0.0, -cx / sx, 0.0],
+                [0.0, 1.0 / sy, -cy / sy, 0.0],
+                [0.0, 0.0, far * depth, -far * shift],
+                [0.0, 0.0, 1.0, 0.0],
+            ]
+        } else {
+            [
+                [1.0 / sx, 0.0, 0.0, -cx / sx],
+                [0.0, 1.0 / sy, 0.0, -cy / sy],
+                [0.0, 0.0, depth, -shift],
+                [0.0, 0.0, 0.0, 1.0],
+            ]
+        }
+    }
+
     /// The ray through `film`, in pixels from the top left corner, and the point of the lens that `lens` chooses.
     pub fn ray(&self, film: [f32; 2], lens: [f32; 2]) -> Ray {
         let x = self.corner[0] + film[0] * self.step[0];
@@ -115,6 +140,20 @@ mod tests {
         assert!((top.d.y - top.d.z).abs() < 1e-6 && top.d.x.abs() < 1e-6);
         let left = c.ray([0.0, 50.0], [0.5; 2]);
         assert!((left.d.x + 2.0 * left.d.z).abs() < 1e-6);
+    }
+
+    #[test]
+    fn points_on_a_ray_project_back_to_its_pixel() {
+        for projection in [Projection::Perspective { fov: 35.0 }, Projection::Orthographic] {
+            let c = Camera::new(&desc(projection), [320, 200]);
+            let m = c.film_from_camera();
+            let ray = c.ray([31.5, 170.25], [0.5; 2]);
+            let p = (ray.o + ray.d * 7.0).to_f64();
+            let h = m.map(|r| r[0] * p.x + r[1] * p.y + r[2] * p.z + r[3]);
+            let [x, y, z] = [0, 1, 2].map(|i| h[i] / h[3]);
+            assert!((x - 31.5).abs() < 1e-3 && (y - 170.25).abs() < 1e-3, "{projection:?}: {x} {y}");
+            assert!(0.0 < z && z < 1.0, "{projection:?}: {z}");
+        }
     }
 
     #[test]

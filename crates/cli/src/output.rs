@@ -1,0 +1,229 @@
+//! From a film to files: channels, windows and attributes of the OpenEXR file, and the PNG beside it.
+
+use std::path::Path;
+
+use sparrow_image::{Attribute, Chromaticities, ImageError, OutputImage, write_exr, write_png};
+use sparrow_render::camera::Camera;
+use sparrow_render::film::Film;
+use sparrow_scene::FilmDesc;
+use sparrow_spectra::ColorSpace;
+
+use crate::interrupt;
+use crate::paths::Outputs;
+use crate::report::Stats;
+
+/// The largest 16-bit float; what exceeds it would become infinite and spread in every later filter.
+const MAX_HALF: f32 = 65_504.0;
+
+type Matrix = [[f32; 4]; 4];
+
+/// The pixels of a film as they go to files, in linear RGB of the output colour space.
+pub(crate) struct Picture {
+    size: [usize; 2],
+    rgb: Vec<[f32; 3]>,
+    /// Empty where the film keeps none.
+    variance: Vec<[f32; 3]>,
+    /// Pixels whose colour was cut to what 16 bits hold.
+    pub(crate) n_clipped: usize,
+}
+
+impl Picture {
+    /// Reads the film; `half` cuts colours to the range of 16-bit floats.
+    pub(crate) fn new(film: &Film, half: bool) -> Picture {
+        let n = film.width() as usize * film.height() as usize;
+        let mut rgb = Vec::with_capacity(n);
+        let mut variance = Vec::with_capacity(if film.has_variance() { n } else { 0 });
+        let limit = if half { MAX_HALF } else { f32::MAX };
+        let mut n_clipped = 0;
+        for y in 0..film.height() {
+            for x in 0..film.width() {
+                let pixel = film.pixel(x, y);
+                let exact = pixel.rgb.map(|v| v as f32);
+                let cut = exact.map(|v| v.clamp(-limit, limit));
+                n_clipped += usize::from(exact.iter().zip(cut).any(|(a, b)| a.abs() > b.abs()));
+                rgb.push(cut);
+                if film.has_variance() {
+                    variance.push(pixel.variance.map(|v| v as f32));
+                }
+            }
+        }
+        Picture { size: [film.width() as usize, film.height() as usize], rgb, variance, n_clipped }
+    }
+
+    /// Writes both files. The program does not end while one of them is being written.
+    ///
+    /// # Errors
+    /// Where a file cannot be written; nothing of that file is left behind.
+    pub(crate) fn save(
+        &self,
+        out: &Outputs,
+        film: &FilmDesc,
+        camera: &Camera,
+        stats: &Stats,
+    ) -> Result<(), ImageError> {
+        let image = self.exr(film, camera, stats);
+        {
+            let _files = interrupt::hold_files();
+            write_exr(&out.exr, &image)?;
+        }
+        drop(image);
+        let _files = interrupt::hold_files();
+        self.save_png(&out.png, film.color_space)
+    }
+
+    fn exr(&self, film: &FilmDesc, camera: &Camera, stats: &Stats) -> OutputImage {
+        let [width, height] = self.size;
+        let [x0, _, y0, _] = film.pixel_bounds;
+        let full = film.resolution.map(|v| v as usize);
+        let mut image = OutputImage::new(width, height).cropped([x0 as i32, y0 as i32], full);
+        for (c, name) in ["R", "G", "B"].into_iter().enumerate() {
+            let samples: Vec<f32> = self.rgb.iter().map(|p| p[c]).collect();
+            image =
+                if film.save_fp16 { image.with_f16(name, &samples) } else { image.with_f32(name, samples) };
+        }
+        if !self.variance.is_empty() {
+            // Always 32 bits: the variance of a dark pixel is below what 16 bits can tell from zero.
+            image = image.with_rgb("variance", &self.variance);
+        }
+        image.chromaticities = Some(chromaticities(film.color_space));
+        let [camera_from_world, ndc_from_world] = matrices(camera, film.resolution);
+        image.world_to_camera = Some(camera_from_world);
+        image.world_to_ndc = Some(ndc_from_world);
+        image.attributes = attributes(stats, camera);
+        image
+    }
+
+    fn save_png(&self, path: &Path, space: ColorSpace) -> Result<(), ImageError> {
+        let to_srgb = space.to_space(ColorSpace::Srgb);
+        let rgb: Vec<[f32; 3]> = match space {
+            ColorSpace::Srgb => self.rgb.clone(),
+            ColorSpace::DciP3 | ColorSpace::Rec2020 | ColorSpace::Aces2065_1 => self
+                .rgb
+                .iter()
+                .map(|p| to_srgb.map(|row| row[0] * p[0] + row[1] * p[1] + row[2] * p[2]))
+                .collect(),
+        };
+        write_png(path, self.size[0], self.size[1], &rgb)
+    }
+}
+
+/// The primaries, with the white points as the standards print them.
+fn chromaticities(space: ColorSpace) -> Chromaticities {
+    let [red, green, blue] = space.primaries().map(|p| p.map(|v| v as f32));
+    let white = match space {
+        // ITU-R BT.709-6, item 1.4; the same in BT.2020 and P3-D65.
+        ColorSpace::Srgb | ColorSpace::DciP3 | ColorSpace::Rec2020 => [0.3127, 0.3290],
+        // SMPTE ST 2065-1, section 4.1.1.
+        ColorSpace::Aces2065_1 => [0.32168, 0.33767],
+    };
+    Chromaticities { red, green, blue, white }
+}
+
+/// Camera from world, and normalised device coordinates from world; both for column vectors, as the image crate takes them.
+///
+/// OpenEXR's device coordinates have (0, 0) in the upper left and (1, 1) in the lower right corner of the display window
+/// [OpenEXR, standard attributes, worldToNDC]. Its files hold matrices for row vectors, so the transposes of these. Camera
+/// space is pbrt's: x right, y up, z ahead, left-handed.
+fn matrices(camera: &Camera, resolution: [u32; 2]) -> [Matrix; 2] {
+    let camera_from_world = camera.to_world().inverse();
+    let world = camera_from_world.rows();
+    let mut ndc = [[0.0; 4]; 4];
+    let pixels = [f64::from(resolution[0]), f64::from(resolution[1]), 1.0, 1.0];
+    for ((row, film), scale) in ndc.iter_mut().zip(camera.film_from_camera()).zip(pixels) {
+        for (j, v) in row.iter_mut().enumerate() {
+            *v = ((0..4).map(|k| film[k] * world[k][j]).sum::<f64>() / scale) as f32;
+        }
+    }
+    [world.map(|row| row.map(|v| v as f32)), ndc]
+}
+
+fn attributes(stats: &Stats, camera: &Camera) -> Vec<(String, Attribute)> {
+    let text = |t: &str| Attribute::Text(t.to_owned());
+    let whole = |v: u32| Attribute::Int(i32::try_from(v).unwrap_or(i32::MAX));
+    let list = [
+        ("software", text(&format!("Sparrow {}", stats.version))),
+        ("command", text(&stats.command_line.iter().map(|w| quoted(w)).collect::<Vec<_>>().join(" "))),
+        ("scene", text(&stats.scene)),
+        // Seeds have 64 bits, whole numbers in OpenEXR 32.
+        ("seed", text(&stats.seed.to_string())),
+        ("samplesPerPixel", whole(stats.samples_per_pixel)),
+        ("renderSeconds", Attribute::Double(stats.times.render_seconds)),
+        ("integrator", text(stats.integrator)),
+        ("maxDepth", whole(stats.max_depth)),
+        ("mis", text(&stats.mis)),
+        ("lightSampler", text(stats.light_sampler)),
+        ("sampler", text(stats.sampler)),
+        ("cameraToWorld", Attribute::Matrix(camera.to_world().rows().map(|row| row.map(|v| v as f32)))),
+    ];
+    list.into_iter().map(|(name, value)| (name.to_owned(), value)).collect()
+}
+
+/// A word of a command line as a POSIX shell takes it.
+fn quoted(word: &str) -> String {
+    let plain = |c: char| c.is_alphanumeric() || "_-+=./,:@%".contains(c);
+    if !word.is_empty() && word.chars().all(plain) {
+        word.to_owned()
+    } else {
+        format!("'{}'", word.replace('\'', r"'\''"))
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::float_cmp, reason = "these values are exact")]
+mod tests {
+    use super::*;
+    use sparrow_math::{Transform, vec3};
+    use sparrow_scene::{CameraDesc, Projection};
+
+    fn camera() -> Camera {
+        let to_world = Transform::translate(vec3(1.0, -2.0, 5.0));
+        let desc = CameraDesc {
+            projection: Projection::Perspective { fov: 40.0 },
+            to_world,
+            screen_window: None,
+            frame_aspect: None,
+            lens_radius: 0.0,
+            focal_distance: 1e6,
+            shutter: [0.0, 1.0],
+        };
+        Camera::new(&desc, [320, 200])
+    }
+
+    #[test]
+    fn world_points_land_on_their_pixels() {
+        let camera = camera();
+        let [world_to_camera, ndc] = matrices(&camera, [320, 200]);
+        for pixel in [[0.0, 0.0], [320.0, 200.0], [31.5, 170.25]] {
+            let ray = camera.ray(pixel, [0.5; 2]);
+            let p = ray.o + ray.d * 3.0;
+            let on = |m: &Matrix| m.map(|r| r[0] * p.x + r[1] * p.y + r[2] * p.z + r[3]);
+            let h = on(&ndc);
+            let (x, y) = (320.0 * h[0] / h[3], 200.0 * h[1] / h[3]);
+            assert!((x - pixel[0]).abs() < 2e-3 && (y - pixel[1]).abs() < 2e-3, "{pixel:?}: {x} {y}");
+            let c = on(&world_to_camera);
+            assert!(c[2] > 0.0, "the camera looks along its z: {c:?}");
+        }
+    }
+
+    #[test]
+    fn bright_pixels_fit_into_half_floats() {
+        let mut film = Film::new(2, 1, true);
+        film.add(0, 0, [1e6, 1.0, -1e6], 1.0);
+        film.add(1, 0, [0.5, 2.0, 4.0], 1.0);
+        let half = Picture::new(&film, true);
+        assert_eq!((half.n_clipped, half.rgb[0]), (1, [MAX_HALF, 1.0, -MAX_HALF]));
+        let full = Picture::new(&film, false);
+        assert_eq!((full.n_clipped, full.rgb[0]), (0, [1e6, 1.0, -1e6]));
+        assert_eq!(full.variance.len(), 2);
+    }
+
+    #[test]
+    fn words_survive_the_shell() {
+        assert_eq!(["a-b=c", "", "it's", "a b"].map(quoted), ["a-b=c", "''", r"'it'\''s'", "'a b'"]);
+    }
+
+    #[test]
+    fn srgb_is_what_openexr_assumes() {
+        assert_eq!(chromaticities(ColorSpace::Srgb), Chromaticities::REC_709);
+    }
+}

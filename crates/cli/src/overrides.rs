@@ -1,0 +1,99 @@
+//! What the command line changes in a scene, before anything is built from it.
+
+use sparrow_scene::{IntegratorName, LightSamplerName, SamplerName, SceneDesc};
+
+use crate::args::{Crop, Integrator, LightSampler, MAX_SPP, RenderArgs};
+
+/// Applies the options to the description.
+pub(crate) fn apply(args: &RenderArgs, desc: &mut SceneDesc) {
+    if let Some(resolution) = args.resolution {
+        resize(desc, resolution);
+    }
+    if let Some(crop) = args.crop {
+        desc.film.pixel_bounds = bounds_of(crop, desc.film.resolution);
+    }
+    // A time limit alone means: as many samples as there is time for.
+    if let Some(spp) = args.spp.or(args.time.map(|_| MAX_SPP)) {
+        set_samples(desc, spp);
+    }
+    if let Some(seed) = args.seed {
+        desc.seed = seed;
+        desc.sampler.seed = None;
+    }
+    let integrator = &mut desc.integrator;
+    match args.integrator {
+        Some(Integrator::Path) => integrator.name = IntegratorName::Path,
+        Some(Integrator::Directlighting) => integrator.name = IntegratorName::DirectLighting,
+        None => {}
+    }
+    match args.lightsampler {
+        Some(LightSampler::Uniform) => integrator.light_sampler = LightSamplerName::Uniform,
+        Some(LightSampler::Power) => integrator.light_sampler = LightSamplerName::Power,
+        Some(LightSampler::Bvh) => integrator.light_sampler = LightSamplerName::Bvh,
+        None => {}
+    }
+    integrator.max_depth = args.max_depth.unwrap_or(integrator.max_depth);
+    if let Some(mis) = args.mis {
+        integrator.mis = mis.to_string();
+    }
+    if let Some(switch) = args.mis_compensation {
+        integrator.mis_compensation = switch.is_on();
+    }
+    if let Some(switch) = args.half {
+        desc.film.save_fp16 = switch.is_on();
+    }
+}
+
+/// The stratified sampler has as many samples as strata; the rectangle nearest to a square is taken, as pbrt-v4 does.
+fn set_samples(desc: &mut SceneDesc, spp: u32) {
+    let sampler = &mut desc.sampler;
+    sampler.samples_per_pixel = spp;
+    if sampler.name == SamplerName::Stratified {
+        let short = (1..=spp.isqrt()).rev().find(|d| spp.is_multiple_of(*d)).unwrap_or(1);
+        sampler.strata = [spp / short, short];
+    }
+}
+
+/// Another size of the whole picture; the part that is rendered keeps its place in it.
+fn resize(desc: &mut SceneDesc, resolution: [u32; 2]) {
+    let film = &mut desc.film;
+    let [x0, x1, y0, y1] = film.pixel_bounds;
+    let side = |lo: u32, hi: u32, axis: usize| {
+        let (old, new) = (u64::from(film.resolution[axis].max(1)), u64::from(resolution[axis]));
+        // To the nearest pixel, so that parts that met before still meet.
+        let place = |v: u32| ((2 * u64::from(v) * new + old) / (2 * old)).min(new) as u32;
+        at_least_one(place(lo), place(hi), resolution[axis])
+    };
+    let ([x0, x1], [y0, y1]) = (side(x0, x1, 0), side(y0, y1, 1));
+    film.pixel_bounds = [x0, x1, y0, y1];
+    film.resolution = resolution;
+}
+
+/// Pixels of a crop window. [pbrt-v4, film.cpp: both ends are rounded up, in single precision]
+fn bounds_of(Crop(crop): Crop, resolution: [u32; 2]) -> [u32; 4] {
+    let place = |v: f32, axis: usize| ((resolution[axis] as f32 * v).ceil() as u32).min(resolution[axis]);
+    let [x0, x1] = at_least_one(place(crop[0], 0), place(crop[1], 0), resolution[0]);
+    let [y0, y1] = at_least_one(place(crop[2], 1), place(crop[3], 1), resolution[1]);
+    [x0, x1, y0, y1]
+}
+
+/// A part thinner than a pixel becomes the pixel it begins in.
+fn at_least_one(lo: u32, hi: u32, n: u32) -> [u32; 2] {
+    let lo = lo.min(n.saturating_sub(1));
+    [lo, hi.max(lo + 1)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn crops_tile_the_picture() {
+        let res = [101, 7];
+        let left = bounds_of(Crop([0.0, 0.3, 0.0, 1.0]), res);
+        let right = bounds_of(Crop([0.3, 1.0, 0.0, 1.0]), res);
+        assert_eq!(left, [0, 31, 0, 7]);
+        assert_eq!(right, [31, 101, 0, 7]);
+        assert_eq!(bounds_of(Crop([0.501, 0.502, 0.999, 1.0]), res), [51, 52, 6, 7], "never empty");
+    }
+}
