@@ -277,7 +277,7 @@ impl Geometry {
         let per_area = |pdf: f64| per_steradian(pdf, from, hit_p, hit_n).unwrap_or(0.0);
         match self.body(shape) {
             Some(Body::Triangles(m)) => m.pdf_from(prim, from, per_area),
-            Some(Body::Patches(m)) => m.pdf_from(prim, from, hit_p, per_area),
+            Some(Body::Patches(m)) => m.pdf_from(prim, from, hit_p, hit_n, per_area),
             Some(Body::Quadric(Some(q))) => q.pdf_from(from, hit_n, per_area),
             Some(Body::Quadric(None)) | None => 0.0,
         }

@@ -72,23 +72,23 @@ impl Patches {
         let pdf = (1.0 / r.solid_angle) as f32;
         seen_from(s, from).map(|s| ShapeSample { pdf, ..s })
     }
-    /// Density per steradian of [`sample_from`](Self::sample_from) for a direction that met the patch at `hit_p`;
-    /// `per_area` turns densities per area into it.
+    /// Density per steradian of [`sample_from`](Self::sample_from) for a direction that met the patch at `hit_p`
+    /// with normal `hit_n`; `per_area` turns densities per area into it.
     pub(crate) fn pdf_from(
         &self,
         prim: u32,
         from: Vec3<f32>,
         hit_p: Vec3<f32>,
+        hit_n: Vec3<f32>,
         per_area: impl Fn(f64) -> f32,
     ) -> f32 {
         match self.usable(prim) {
             None => 0.0,
             Some(Kind::Curved) => {
                 let patch = self.bilinear(prim);
-                let d = hit_p.to_f64() - from.to_f64();
-                let roots = patch.roots(from.to_f64(), d).into_iter().flatten();
-                // The point is where the line through it meets the patch at t = 1.
-                let nearest = roots.min_by(|a, b| (a.t - 1.0).abs().total_cmp(&(b.t - 1.0).abs()));
+                // The line through the point along the normal finds the parameters again.
+                let roots = patch.roots(hit_p.to_f64(), hit_n.to_f64()).into_iter().flatten();
+                let nearest = roots.min_by(|a, b| a.t.abs().total_cmp(&b.t.abs()));
                 nearest.map_or(0.0, |r| {
                     let (u, v) = (r.u.clamp(0.0, 1.0), r.v.clamp(0.0, 1.0));
                     per_area(Density::of(&patch).pdf(u, v) / patch.stretch(u, v))

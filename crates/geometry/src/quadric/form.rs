@@ -60,7 +60,7 @@ impl Form {
             Shape::Triangles(_) | Shape::Patches(_) => return None,
             Shape::Sphere { radius, z_min, z_max, phi_max } => {
                 let (r, phi_max) = (f64::from(radius).abs(), full(phi_max));
-                let z = sorted(z_min, z_max).map(|z| z.clamp(-r, r));
+                let z = sorted(z_min, z_max).map(|z| z.max(-r).min(r));
                 let theta = z.map(|z| Real::acos(z / r));
                 (Form::Sphere { r, z, theta, phi_max }, [r, z[1] - z[0], phi_max])
             }

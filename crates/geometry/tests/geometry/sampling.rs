@@ -1,0 +1,204 @@
+//! Densities of drawn directions.
+
+use sparrow_geometry::{BilinearMesh, Geometry, Ray, Shape, ShapeInstance, TriangleMesh};
+use sparrow_math::{Transform, Vec3, vec3};
+
+use super::{Rng, at, placed, quadrics};
+
+fn triangle(p: [[f32; 3]; 3]) -> ShapeInstance {
+    placed(Shape::Triangles(TriangleMesh { p: p.to_vec(), indices: vec![[0, 1, 2]], ..Default::default() }))
+}
+
+fn patch(p: [[f32; 3]; 4]) -> ShapeInstance {
+    placed(Shape::Patches(BilinearMesh { p: p.to_vec(), indices: vec![[0, 1, 2, 3]], ..Default::default() }))
+}
+
+/// Draws points as seen from `from` and asks: is the density the one `pdf_from` says, for what the ray meets too?
+/// Returns the mean of `1 / pdf` over the samples that are not hidden by the shape itself.
+fn check(g: &Geometry, from: Vec3<f32>, rng: &mut Rng, n: u32, what: &str) -> f64 {
+    let mut sum = 0.0;
+    for _ in 0..n {
+        let Some(s) = g.sample_from(0, 0, from, rng.pair()) else { continue };
+        assert!(s.pdf > 0.0 && s.pdf.is_finite() && (s.wi.length() - 1.0).abs() < 1e-5, "{what}: {s:?}");
+        assert!((s.n.length() - 1.0).abs() < 1e-5, "{what}: {s:?}");
+        let along = from + s.wi * s.distance - s.p;
+        assert!(along.length() <= 1e-5 * (s.distance + s.p.length() + from.length()), "{what}: {s:?}");
+        let again = g.pdf_from(0, 0, from, s.wi, s.p, s.n);
+        assert!((again / s.pdf - 1.0).abs() < 2e-4, "{what}: {} drawn, {again} said", s.pdf);
+        let ray = Ray::new(from, s.wi);
+        let Some(hit) = g.intersect(&ray) else { continue };
+        if (hit.t / s.distance - 1.0).abs() < 1e-3 {
+            sum += 1.0 / f64::from(s.pdf);
+            let p = g.surface(&ray, &hit);
+            assert!(
+                (p.uv[0] - s.uv[0]).abs() + (p.uv[1] - s.uv[1]).abs() < 0.02 || s.pdf > 1e5,
+                "{what}: {p:?} {s:?}"
+            );
+            let side = p.ng.dot(s.n);
+            assert!(side > 0.9, "{what}: normals {:?} and {:?}", p.ng, s.n);
+            if p.ng.dot(s.wi).abs() > 0.05 {
+                let met = g.pdf_from(0, 0, from, s.wi, p.p, p.ng);
+                assert!((met / s.pdf - 1.0).abs() < 0.02, "{what}: {} drawn, {met} met", s.pdf);
+            }
+        }
+    }
+    sum / f64::from(n)
+}
+
+/// The solid angle of everything, by rays in uniform directions within a cone about `axis`.
+fn solid_angle(
+    g: &Geometry,
+    from: Vec3<f32>,
+    axis: Vec3<f32>,
+    one_minus_cos: f32,
+    rng: &mut Rng,
+    n: u32,
+) -> f64 {
+    let frame = sparrow_math::Frame::from_z(axis.normalized());
+    let hits = (0..n).filter(|_| {
+        let d = sparrow_math::warp::uniform_cone(rng.pair(), one_minus_cos);
+        g.occluded(&Ray::new(from, frame.to_world(sparrow_math::LocalDir::new(d))))
+    });
+    2.0 * core::f64::consts::PI * f64::from(one_minus_cos) * hits.count() as f64 / f64::from(n)
+}
+
+fn shapes(rng: &mut Rng) -> Vec<ShapeInstance> {
+    let mut all = vec![
+        triangle([[-0.4, -0.3, 0.1], [0.5, -0.2, 0.0], [0.0, 0.6, -0.1]]),
+        triangle([[-3.0, -2.0, 0.3], [3.0, -2.5, 0.1], [0.0, 4.0, 0.0]]),
+        patch([[-0.5, -0.4, 0.0], [0.5, -0.4, 0.0], [-0.5, 0.4, 0.0], [0.5, 0.4, 0.0]]),
+        patch([[-0.5, -0.4, 0.0], [0.5, -0.3, 0.1], [-0.3, 0.4, 0.0], [0.7, 0.5, 0.1]]),
+        patch([[-0.5, -0.4, 0.3], [0.5, -0.4, -0.2], [-0.5, 0.4, 0.0], [0.5, 0.6, 0.4]]),
+    ];
+    all.extend(quadrics(rng, 1.5).into_iter().map(|mut s| {
+        let m = s.to_world.rows();
+        let back = Transform::translate(vec3(-m[0][3], -m[1][3], -m[2][3]));
+        s.to_world = back.then_first(&s.to_world);
+        s
+    }));
+    all
+}
+
+#[test]
+fn drawn_and_said_densities_agree_and_integrate() {
+    let mut rng = Rng(1);
+    for (i, shape) in shapes(&mut rng).into_iter().enumerate() {
+        let g = Geometry::build(vec![shape]);
+        for (j, from) in [[0.3, 0.4, 2.0], [-1.5, 0.9, 1.2], [0.5, -3.0, -0.7]].into_iter().enumerate() {
+            let from = Vec3::from(from);
+            let what = format!("shape {i} from {j}");
+            let mean = check(&g, from, &mut rng, 20_000, &what);
+            let truth = solid_angle(&g, from, -from, 0.9, &mut rng, 250_000);
+            assert!((mean - truth).abs() < 0.04 * truth + 0.004, "{what}: mean {mean}, solid angle {truth}");
+        }
+    }
+}
+
+/// Cones around balls: half of all directions nearly, a hundredth, a millionth of a millionth; and from inside.
+#[test]
+fn balls_near_and_far() {
+    let mut rng = Rng(2);
+    for scale in [1.0, 0.25] {
+        let place = Transform::scale(vec3(scale, scale, -scale)).unwrap();
+        let radius = 2.0 * scale as f32;
+        let g = Geometry::build(vec![at(super::sphere(2.0), place)]);
+        for ratio in [1.000_01, 1.1, 3.0, 1e3, 1e6] {
+            let from = rng.direction() * (radius * ratio);
+            let sin2 = 1.0 / f64::from(ratio).powi(2);
+            let truth = 2.0 * core::f64::consts::PI * sin2 / (1.0 + (1.0 - sin2).sqrt());
+            let mean = (0..200).map(|_| {
+                let s = g.sample_from(0, 0, from, rng.pair()).unwrap();
+                assert!(
+                    s.wi.dot(s.n) * if place.swaps_handedness() { -1.0 } else { 1.0 } <= 1e-3,
+                    "faces away"
+                );
+                1.0 / f64::from(s.pdf)
+            });
+            let mean = mean.sum::<f64>() / 200.0;
+            assert!((mean / truth - 1.0).abs() < 2e-3, "{ratio}: {mean} for {truth}");
+        }
+        for inside in [0.0, 0.3, 0.999] {
+            let from = rng.direction() * (radius * inside);
+            let mean = check(&g, from, &mut rng, 500, "inside");
+            assert!((mean / (4.0 * core::f64::consts::PI) - 1.0).abs() < 0.02, "{inside}: {mean}");
+        }
+    }
+}
+
+/// Uniform over the sphere means: equal parts of the unit square fill equal solid angles.
+#[test]
+fn triangles_and_rectangles_are_drawn_uniformly() {
+    let mut rng = Rng(3);
+    let lights = [
+        triangle([[-0.6, -0.5, 1.0], [0.9, -0.4, 1.2], [0.1, 0.8, 0.9]]),
+        patch([[-0.6, -0.5, 1.0], [0.9, -0.5, 1.0], [-0.6, 0.7, 1.0], [0.9, 0.7, 1.0]]),
+    ];
+    for light in lights {
+        let g = Geometry::build(vec![light]);
+        // A direction's mean over uniform samples against the mean over rays that happen to hit.
+        let from = vec3(0.2, -0.3, 0.1);
+        let (mut drawn, mut met, mut n_met) = (Vec3::splat(0.0), Vec3::splat(0.0), 0.0);
+        let n = 40_000;
+        for _ in 0..n {
+            drawn += g.sample_from(0, 0, from, rng.pair()).unwrap().wi * (1.0 / n as f32);
+        }
+        while n_met < 40_000.0 {
+            let d = rng.direction();
+            if g.occluded(&Ray::new(from, d)) {
+                met += d;
+                n_met += 1.0;
+            }
+        }
+        let off = (drawn - met * (1.0 / n_met)).length();
+        assert!(off < 0.008, "{off}");
+    }
+}
+
+/// In the plane of a light, at its corners, on its surface: nothing, or numbers that make sense.
+#[test]
+fn awkward_observers() {
+    let mut rng = Rng(4);
+    for shape in shapes(&mut rng) {
+        let g = Geometry::build(vec![shape]);
+        let mut spots =
+            vec![vec3(-0.4, -0.3, 0.1), vec3(5.0, -0.4, 0.0), Vec3::splat(0.0), vec3(1e20, 0.0, 0.0)];
+        spots.extend((0..20).map(|_| g.sample_area(0, 0, rng.pair()).unwrap().p));
+        for from in spots {
+            for u in
+                [[0.0, 0.0], [0.0, 0.999_999_9], [0.999_999_9, 0.0], [0.999_999_9, 0.999_999_9], rng.pair()]
+            {
+                if let Some(s) = g.sample_from(0, 0, from, u) {
+                    assert!(
+                        s.pdf >= 0.0 && s.pdf.is_finite() && s.wi.is_finite() && s.p.is_finite(),
+                        "{s:?}"
+                    );
+                    let again = g.pdf_from(0, 0, from, s.wi, s.p, s.n);
+                    assert!(again >= 0.0 && again.is_finite(), "{again}");
+                }
+            }
+        }
+    }
+}
+
+/// The mean of one over the density per area is the area.
+#[test]
+fn areas() {
+    let mut rng = Rng(5);
+    for (i, shape) in shapes(&mut rng).into_iter().enumerate() {
+        let g = Geometry::build(vec![shape]);
+        let n = 4000;
+        let mean = (0..n).map(|_| 1.0 / f64::from(g.sample_area(0, 0, rng.pair()).unwrap().pdf)).sum::<f64>()
+            / f64::from(n);
+        assert!(
+            (mean / f64::from(g.area(0, 0)) - 1.0).abs() < 0.02,
+            "shape {i}: {mean} for {}",
+            g.area(0, 0)
+        );
+    }
+    let g = Geometry::build(vec![
+        placed(super::sphere(2.0)),
+        patch([[0.0; 3], [2.0, 0.0, 0.0], [0.0, 3.0, 0.0], [2.0, 3.0, 0.0]]),
+    ]);
+    assert!((g.area(0, 0) / (16.0 * core::f32::consts::PI) - 1.0).abs() < 1e-6);
+    assert!((g.area(1, 0) - 6.0).abs() < 1e-5);
+}
