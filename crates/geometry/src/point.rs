@@ -40,14 +40,11 @@ pub struct SurfacePoint {
 pub(crate) fn offset_point(p: Vec3<f32>, p_error: Vec3<f32>, n: Vec3<f32>, w: Vec3<f32>) -> Vec3<f32> {
     let d = n.abs().dot(p_error);
     let offset = n * if w.dot(n) < 0.0 { -d } else { d };
+    // A step of one unit in the last place outwards; no step where there is no offset.
     let away = |p: f32, o: f32| {
-        if o > 0.0 {
-            (p + o).next_up()
-        } else if o < 0.0 {
-            (p + o).next_down()
-        } else {
-            p
-        }
+        let q = p + o;
+        let step = if o > 0.0 { q.next_up() } else { q.next_down() };
+        if o == 0.0 { p } else { step }
     };
     sparrow_math::vec3(away(p.x, offset.x), away(p.y, offset.y), away(p.z, offset.z))
 }

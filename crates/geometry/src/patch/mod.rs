@@ -4,7 +4,7 @@ mod bilinear;
 mod sampling;
 
 use bilinear::Bilinear;
-use sparrow_math::{Aabb, Vec3};
+use sparrow_math::{Aabb, Vec3, vec3};
 
 use crate::bvh::{RawHit, gamma};
 use crate::point::SurfacePoint;
@@ -147,10 +147,12 @@ impl Patches {
     }
     /// Texture coordinates of the corners, as vectors.
     fn texture_corners(&self, prim: u32) -> [Vec3<f32>; 4] {
-        self.mesh.indices[prim as usize].map(|i| {
+        let [a, b, c, d] = self.mesh.indices[prim as usize];
+        let uv = |i: u32| {
             let [s, t] = self.mesh.uv[i as usize];
-            sparrow_math::vec3(s, t, 0.0)
-        })
+            vec3(s, t, 0.0)
+        };
+        [uv(a), uv(b), uv(c), uv(d)]
     }
     /// The interpolated shading normal, where the mesh has one.
     fn shading_normal(&self, prim: u32, u: f32, v: f32) -> Option<Vec3<f32>> {
@@ -161,18 +163,19 @@ impl Patches {
         (n.length2() > 0.0).then(|| n.normalized())
     }
     fn normal_corners(&self, prim: u32) -> [Vec3<f32>; 4] {
-        self.mesh.indices[prim as usize].map(|i| self.mesh.n[i as usize].into())
+        let [a, b, c, d] = self.mesh.indices[prim as usize];
+        let n = |i: u32| Vec3::from(self.mesh.n[i as usize]);
+        [n(a), n(b), n(c), n(d)]
     }
-    /// The geometric normal, on the side of the shading normal or as the orientation says.
-    fn normal(&self, prim: u32, u: f32, v: f32) -> Vec3<f32> {
-        let n = self.bilinear(prim).normal(f64::from(u), f64::from(v)).to_f32();
+    /// A unit normal of the bilinear surface, turned to the side of the shading normal or as the orientation says.
+    fn oriented(&self, n: Vec3<f64>, shading: Option<Vec3<f32>>) -> Vec3<f32> {
+        let n = n.to_f32();
         let n = if self.flip { -n } else { n };
-        self.shading_normal(prim, u, v).map_or(n, |ns| n.facing(ns))
+        shading.map_or(n, |ns| n.facing(ns))
     }
     /// Bound of the rounding error of a point, which covers what a parallelogram is taken to be flat.
-    fn p_error(&self, prim: u32) -> Vec3<f32> {
-        let [a, b, c, d] = self.corners(prim).map(Vec3::abs);
-        a.max(b).max(c.max(d)) * gamma(6)
+    fn p_error([a, b, c, d]: [Vec3<f32>; 4]) -> Vec3<f32> {
+        a.abs().max(b.abs()).max(c.abs().max(d.abs())) * gamma(6)
     }
 
     /// The surface at a hit; meanings as in pbrt-v4.
@@ -180,7 +183,11 @@ impl Patches {
         let (prim, u, v) = (hit.prim, hit.u, hit.v);
         let p = self.corners(prim);
         let (du, dv) = lerp2_derivatives(p, u, v);
-        let (nu, nv) = self.bilinear(prim).normal_derivatives(f64::from(u), f64::from(v));
+        let (u64, v64, patch) = (f64::from(u), f64::from(v), Bilinear::new(p));
+        let (nu, nv) = match self.kinds[prim as usize] {
+            Kind::Curved => patch.normal_derivatives(u64, v64),
+            Kind::Rectangle | Kind::Parallelogram | Kind::Dropped => Default::default(),
+        };
         let (mut dpdu, mut dpdv, mut dndu, mut dndv) = (du, dv, nu, nv);
         if !self.mesh.uv.is_empty() {
             let (st_u, st_v) = lerp2_derivatives(self.texture_corners(prim), u, v);
@@ -195,8 +202,8 @@ impl Patches {
             }
             (dndu, dndv) = (nu * duds + nv * dvds, nu * dudt + nv * dvdt);
         }
-        let ng = self.normal(prim, u, v);
         let shading = self.shading_normal(prim, u, v);
+        let ng = self.oriented(patch.normal(u64, v64), shading);
         let ns = shading.unwrap_or(ng);
         let mut tangent = dpdu;
         if shading.is_some() {
@@ -206,7 +213,7 @@ impl Patches {
         }
         SurfacePoint {
             p: lerp2(p, u, v),
-            p_error: self.p_error(prim),
+            p_error: Self::p_error(p),
             ng,
             ns,
             dpdu,

@@ -46,10 +46,12 @@ impl Patches {
     }
     fn sample_at(&self, prim: u32, [u, v]: [f64; 2], pdf: f64) -> ShapeSample {
         let (u32, v32) = (u as f32, v as f32);
+        let p = self.corners(prim);
+        let patch = Bilinear::new(p);
         ShapeSample {
-            p: self.bilinear(prim).at(u, v).to_f32(),
-            p_error: self.p_error(prim),
-            n: self.normal(prim, u32, v32),
+            p: patch.at(u, v).to_f32(),
+            p_error: Self::p_error(p),
+            n: self.oriented(patch.normal(u, v), self.shading_normal(prim, u32, v32)),
             uv: self.uv(prim, u32, v32),
             wi: Vec3::splat(0.0),
             distance: 0.0,

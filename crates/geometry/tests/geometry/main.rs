@@ -70,7 +70,7 @@ pub(crate) fn patches(rng: &mut Rng, n: u32, size: f32) -> ShapeInstance {
         }
         let mut p = [c, c + e, c + f, c + e + f];
         if i % 3 == 0 {
-            p[3] = p[3] + rng.direction() * (0.7 * size);
+            p[3] += rng.direction() * (0.7 * size);
         }
         mesh.p.extend(p.map(Vec3::to_array));
         mesh.indices.push([4 * i, 4 * i + 1, 4 * i + 2, 4 * i + 3]);

@@ -168,9 +168,8 @@ fn rays_are_open() {
         vec![placed(Shape::Disk { height: 2.0, radius: 1.0, inner_radius: 0.0, phi_max: super::TAU })];
     let disk = Geometry::build(shapes);
     let mut rng = Rng(6);
-    let mut mesh = TriangleMesh::default();
-    mesh.p = vec![[-1.0, -1.0, 2.0], [1.0, -1.0, 2.0], [0.0, 1.0, 2.0]];
-    mesh.indices = vec![[0, 1, 2]];
+    let p = vec![[-1.0, -1.0, 2.0], [1.0, -1.0, 2.0], [0.0, 1.0, 2.0]];
+    let mesh = TriangleMesh { p, indices: vec![[0, 1, 2]], ..Default::default() };
     let triangle = Geometry::build(vec![placed(Shape::Triangles(mesh))]);
     for g in [&disk, &triangle] {
         for _ in 0..100 {
