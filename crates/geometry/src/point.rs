@@ -36,7 +36,7 @@ pub struct SurfacePoint {
     pub prim: u32,
 }
 
-/// Moves `p` along the unit normal `n`, to the side of `w`, beyond its rounding error. [pbrt-v4, section 6.8.6]
+/// Moves `p` along the unit normal `n`, to the side of `w`, beyond its rounding error. [PharrJakobHumphreys2023, section 6.8.6]
 pub(crate) fn offset_point(p: Vec3<f32>, p_error: Vec3<f32>, n: Vec3<f32>, w: Vec3<f32>) -> Vec3<f32> {
     let d = n.abs().dot(p_error);
     let offset = n * if w.dot(n) < 0.0 { -d } else { d };

@@ -29,7 +29,7 @@ pub(crate) struct TriBlock {
     id: [u32; 4],
 }
 
-/// Bound of the relative error of `n` roundings in a row. [pbrt-v4, section 6.8.1]
+/// Bound of the relative error of `n` roundings in a row. [PharrJakobHumphreys2023, section 6.8.1]
 pub(crate) const fn gamma(n: u32) -> f32 {
     let e = n as f32 * (f32::EPSILON / 2.0);
     e / (1.0 - e)
@@ -125,7 +125,7 @@ impl Sheared {
         (t > 0.0 && inv.is_finite()).then_some((t, v * inv, w * inv))
     }
 
-    /// Bound of the error of `t`, after [pbrt-v4, section 6.8.7].
+    /// Bound of the error of `t`, after [PharrJakobHumphreys2023, section 6.8.7].
     #[inline(always)]
     fn t_error(&self, inv: f32, sz: f32) -> f32 {
         let [a, b, c] = self.p;
