@@ -2,7 +2,7 @@
 
 use crate::diagnostic::Span;
 use crate::lexer::shorten;
-use crate::params::{Param, Values};
+use crate::params::{Param, Params, Values};
 use crate::report::Report;
 use crate::suggest::remedy;
 use crate::tables::{Category, Entity, Kind, Row, Support, Use, successor};
@@ -39,7 +39,7 @@ pub(crate) fn entity(
     Some(entity)
 }
 
-/// Checks names, types and numbers of values; parameters that fail are removed.
+/// Checks names, types and numbers of values; parameters that fail are removed, and the rest is marked as broken.
 ///
 /// `what` names the statement, such as `shape "sphere"`.
 pub(crate) fn params<'a>(
@@ -47,10 +47,11 @@ pub(crate) fn params<'a>(
     category: Category,
     what: &str,
     rows: impl Iterator<Item = &'a Row> + Clone,
-    own: &mut Vec<Param>,
+    params: &mut Params,
 ) {
-    twice(report, what, own);
-    own.retain(|p| {
+    twice(report, what, &params.own);
+    let n = params.own.len();
+    params.own.retain(|p| {
         let Some(row) = rows.clone().find(|r| r.name == p.name) else {
             let shown = shorten(&p.name);
             let remedy = match successor(category, &p.name, true) {
@@ -80,6 +81,7 @@ pub(crate) fn params<'a>(
         }
         count(report, what, row.kind, p)
     });
+    params.broken |= params.own.len() < n;
 }
 
 /// pbrt-v4 lets the last one count and says nothing.

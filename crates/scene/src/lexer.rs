@@ -77,7 +77,7 @@ fn not_a_number(word: &str) -> String {
     }
     match word.parse::<f64>() {
         Ok(_) => format!("`{}` is too large for single precision; write a smaller number", shorten(word)),
-        Err(_) => format!("`{}` is not a number; write a number or close the list with `]`", shorten(word)),
+        Err(_) => format!("`{}` is not a number; write one, or end the list with `]`", shorten(word)),
     }
 }
 
@@ -85,7 +85,7 @@ fn not_an_integer(word: &str) -> String {
     let remedy = match word.parse::<f64>() {
         Ok(v) if v.fract() == 0.0 && v.abs() <= f64::from(i32::MAX) => format!("write `{v:.0}`"),
         Ok(v) if v.abs() > f64::from(i32::MAX) => "integers go from -2147483648 to 2147483647".to_string(),
-        Ok(_) | Err(_) => "write a whole number or close the list with `]`".to_string(),
+        Ok(_) | Err(_) => "write a whole number, or end the list with `]`".to_string(),
     };
     format!("`{}` is not an integer; {remedy}", shorten(word))
 }
@@ -300,7 +300,7 @@ pub(crate) fn expected(token: &Token<'_>, what: &str) -> Diagnostic {
         TokenKind::Open => "`[`".into(),
         TokenKind::Close => "`]`".into(),
     };
-    Diagnostic::error(token.at, format!("{found} stands where {what} is expected; write {what}"))
+    Diagnostic::error(token.at, format!("{found} stands where {what} is expected; correct the statement"))
 }
 
 fn unescape(text: &str, at: Span) -> Result<String, Diagnostic> {

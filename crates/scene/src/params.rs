@@ -76,6 +76,8 @@ pub(crate) struct Params {
     pub(crate) inherited: Rc<Vec<Rc<Param>>>,
     /// In force at the statement.
     pub(crate) color_space: ColorSpace,
+    /// A parameter was left out because it is faulty: what seems to be missing need not be.
+    pub(crate) broken: bool,
     /// The statement.
     pub(crate) at: Span,
 }

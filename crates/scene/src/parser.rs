@@ -196,9 +196,14 @@ impl<'a> Parser<'a> {
                 self.give_back(token.clone());
                 Err(expected(&token, "a string in quotes"))
             }
+            (_, TokenKind::Word(w)) if parse_f64(w.as_bytes()).is_some() => {
+                let message =
+                    format!("the numbers of \"{name}\" stand without brackets; write them in `[ ]`");
+                Err(Diagnostic::error(token.at, message))
+            }
             _ => {
                 self.give_back(token.clone());
-                Err(expected(&token, &format!("the list of numbers of \"{name}\", in brackets")))
+                Err(expected(&token, "`[`"))
             }
         }
     }

@@ -18,7 +18,7 @@ fn distance(a: &[u8], b: &[u8]) -> usize {
     last[b.len()]
 }
 
-/// The name nearest to `word`, where one is near enough to be meant: a third of its letters may differ.
+/// The name nearest to `word`, where one is near enough to be meant: a quarter of its letters may differ.
 pub(crate) fn nearest<'a>(word: &str, names: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let lower = word.to_ascii_lowercase();
     // Long words are no slips of the finger, and the distance costs the product of the lengths.
@@ -28,12 +28,18 @@ pub(crate) fn nearest<'a>(word: &str, names: impl IntoIterator<Item = &'a str>) 
     names
         .into_iter()
         .map(|n| (distance(lower.as_bytes(), n.to_ascii_lowercase().as_bytes()), n))
-        .filter(|&(d, n)| d <= n.len().max(lower.len()).div_ceil(3).min(4) && d < lower.len().max(2))
+        .filter(|&(d, n)| {
+            let len = n.len().max(lower.len());
+            d <= (len / 4).clamp(1, 4) && d < len
+        })
         .min_by_key(|&(d, _)| d)
         .map(|(_, n)| n)
 }
 
-/// `; did you mean "x"?`, or `; known are ...` where nothing is near.
+/// More names than this are not listed.
+const MAX_LISTED: usize = 20;
+
+/// What to do about an unknown name: `did you mean "x"?`, or a list of what is known where nothing is near.
 pub(crate) fn remedy<'a>(word: &str, names: impl IntoIterator<Item = &'a str> + Clone) -> String {
     match nearest(word, names.clone()) {
         Some(n) => format!("did you mean \"{n}\"?"),
@@ -41,9 +47,13 @@ pub(crate) fn remedy<'a>(word: &str, names: impl IntoIterator<Item = &'a str> + 
             let mut all: Vec<&str> = names.into_iter().filter(|n| !n.is_empty()).collect();
             all.sort_unstable();
             all.dedup();
-            match all.is_empty() {
-                true => "remove it".to_string(),
-                false => format!("known are {}", all.join(", ")),
+            let n = all.len();
+            match n {
+                0 => "define it".to_string(),
+                _ if n > MAX_LISTED => {
+                    format!("known are {} and {} more", all[..MAX_LISTED].join(", "), n - MAX_LISTED)
+                }
+                _ => format!("known are {}", all.join(", ")),
             }
         }
     }

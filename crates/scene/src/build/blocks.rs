@@ -14,19 +14,21 @@ use crate::suggest::remedy;
 pub(super) enum BlockKind {
     Attribute,
     Object,
+    /// An object within an object, which is a fault.
+    Nested,
 }
 
 impl BlockKind {
     fn opener(self) -> &'static str {
         match self {
             BlockKind::Attribute => "AttributeBegin",
-            BlockKind::Object => "ObjectBegin",
+            BlockKind::Object | BlockKind::Nested => "ObjectBegin",
         }
     }
     fn closer(self) -> &'static str {
         match self {
             BlockKind::Attribute => "AttributeEnd",
-            BlockKind::Object => "ObjectEnd",
+            BlockKind::Object | BlockKind::Nested => "ObjectEnd",
         }
     }
 }
@@ -51,26 +53,19 @@ impl Builder {
             "WorldBegin" => self.world_begin(at),
             "WorldEnd" => self.report.warn(at, "`WorldEnd` is of pbrt-v3 and has no effect; remove it"),
             "AttributeBegin" => self.open(BlockKind::Attribute, at),
-            "AttributeEnd" => self.close(BlockKind::Attribute, directive, at),
+            "AttributeEnd" => self.attribute_end(directive, at),
             "TransformBegin" => {
                 let message = "`TransformBegin` and `TransformEnd` are of pbrt-v3 and save all attributes; \
                                write `AttributeBegin` and `AttributeEnd`";
                 self.report.warn(at, message);
                 self.open(BlockKind::Attribute, at);
             }
-            "TransformEnd" => self.close(BlockKind::Attribute, directive, at),
+            "TransformEnd" => self.attribute_end(directive, at),
             "ObjectBegin" => {
                 let name = parser.text()?;
                 self.object_begin(name, at);
             }
-            "ObjectEnd" => {
-                if self.open_object.is_none() {
-                    self.report.error(at, "`ObjectEnd` closes no object; remove it");
-                } else {
-                    self.close(BlockKind::Object, directive, at);
-                    self.open_object = None;
-                }
-            }
+            "ObjectEnd" => self.object_end(at),
             "ObjectInstance" => {
                 let name = parser.text()?;
                 self.object_instance(name, at);
@@ -115,25 +110,40 @@ impl Builder {
         }
     }
 
-    fn close(&mut self, kind: BlockKind, directive: &str, at: Span) {
-        let Some(block) = self.blocks.pop() else {
-            self.report
-                .error(at, format!("`{directive}` closes nothing; remove it or add `{}`", kind.opener()));
+    fn attribute_end(&mut self, directive: &str, at: Span) {
+        if let Some(block) = self.blocks.pop_if(|b| b.kind == BlockKind::Attribute) {
+            self.graphics = block.saved;
+            return;
+        }
+        let message = match self.blocks.last() {
+            Some(block) => self.crossed(directive, block),
+            None => format!("`{directive}` closes nothing; remove it or add `AttributeBegin`"),
+        };
+        self.report.error(at, message);
+    }
+
+    fn object_end(&mut self, at: Span) {
+        let Some(i) = self.blocks.iter().rposition(|b| b.kind != BlockKind::Attribute) else {
+            self.report.error(at, "`ObjectEnd` closes no object; remove it or add `ObjectBegin`");
             return;
         };
-        if block.kind != kind {
-            let (opener, closer) = (block.kind.opener(), block.kind.closer());
-            let place = self.report.place(block.at);
-            let message = format!(
-                "`{directive}` stands where `{opener}` of {place} is open; close it with `{closer}` first"
-            );
+        // What is still open inside the object ends with it, after one message.
+        if let Some(inner) = self.blocks.get(i + 1) {
+            let message = self.crossed("ObjectEnd", inner);
             self.report.error(at, message);
-            // The closer that is missing shall not bring a second message.
-            if block.kind == BlockKind::Object {
-                self.open_object = None;
-            }
+        }
+        self.blocks.truncate(i + 1);
+        let Some(block) = self.blocks.pop() else { return };
+        if block.kind == BlockKind::Object {
+            self.open_object = None;
         }
         self.graphics = block.saved;
+    }
+
+    fn crossed(&self, directive: &str, open: &Block) -> String {
+        let (opener, closer) = (open.kind.opener(), open.kind.closer());
+        let place = self.report.place(open.at);
+        format!("`{directive}` stands where `{opener}` of {place} is open; close that with `{closer}` first")
     }
 
     fn object_begin(&mut self, (name, name_at): (String, Span), at: Span) {
@@ -144,8 +154,7 @@ impl Builder {
                 "objects cannot be nested, and that of {place} is open; close it with `ObjectEnd` first"
             );
             self.report.error(at, message);
-            // Its end closes a block like any other.
-            self.open(BlockKind::Attribute, at);
+            self.open(BlockKind::Nested, at);
             return;
         }
         self.open(BlockKind::Object, at);

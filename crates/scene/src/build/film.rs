@@ -21,6 +21,7 @@ impl Builder {
             own: Vec::new(),
             inherited: Rc::default(),
             color_space: ColorSpace::Srgb,
+            broken: false,
             at: Span::default(),
         };
         let p = &self.setup.film.take().map_or_else(nothing, |s| s.params);

@@ -190,7 +190,7 @@ impl Builder {
 
 fn singular(directive: &str) -> String {
     let remedy = match directive {
-        "Scale" => "a factor is zero or too small; give factors that are not zero",
+        "Scale" => "a factor is zero, too small or too large; change it",
         "Rotate" => "its axis has no length; give an axis that is not zero",
         "LookAt" => {
             "the eye, the point looked at and the up vector span no frame; move one of them off the line of the others"

@@ -124,9 +124,12 @@ impl Builder {
     fn mis(&mut self, p: &Params) -> String {
         let Some((name, at)) = p.text("mis") else { return "power".to_string() };
         let beta = name.strip_prefix("power:").and_then(|b| b.parse::<f32>().ok());
-        if !matches!(name, "balance" | "power") && !beta.is_some_and(|b| b > 0.0 && b.is_finite()) {
+        if !matches!(name, "balance" | "power" | "light-only" | "bsdf-only")
+            && !beta.is_some_and(|b| b > 0.0 && b.is_finite())
+        {
             let message = format!(
-                "\"mis\" cannot be \"{name}\"; write \"balance\", \"power\" or \"power:BETA\" with BETA above zero"
+                "\"mis\" cannot be \"{name}\"; write \"balance\", \"power\", \"light-only\", \"bsdf-only\", or \"power:BETA\" with \
+                 BETA above zero"
             );
             self.report.error(at, message);
         }

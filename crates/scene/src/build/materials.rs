@@ -90,6 +90,9 @@ impl Builder {
         };
         let mut params = m.params.clone();
         self.check_material(m, entity.rows(), &mut params);
+        if params.broken {
+            return self.diffuse_grey();
+        }
         let p = &params;
         match entity.name {
             "diffuse" | "coateddiffuse" => {
@@ -126,7 +129,7 @@ impl Builder {
     ) {
         let what = format!("material \"{}\"", m.type_name);
         let named = m.name.is_some().then_some(&TYPE_ROW);
-        check::params(&mut self.report, Category::Material, &what, rows.chain(named), &mut params.own);
+        check::params(&mut self.report, Category::Material, &what, rows.chain(named), params);
     }
 
     /// The stand-in for what is not supported, and pbrt-v4's default.

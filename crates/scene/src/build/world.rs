@@ -61,7 +61,11 @@ impl Builder {
 
     fn read_params(&mut self, parser: &mut Parser<'_>, category: Category, at: Span) -> Params {
         let color_space = self.graphics.color_space;
-        let own = parser.params(color_space, |d| self.report.push(d));
+        let mut broken = false;
+        let own = parser.params(color_space, |d| {
+            broken = true;
+            self.report.push(d);
+        });
         let target = match category {
             Category::Shape => Some(Target::Shape),
             Category::Light | Category::AreaLight => Some(Target::Light),
@@ -72,7 +76,7 @@ impl Builder {
             Category::Integrator | Category::Accelerator => None,
         };
         let inherited = target.map_or_else(Rc::default, |t| self.graphics.inherited(t));
-        Params { own, inherited, color_space, at }
+        Params { own, inherited, color_space, broken, at }
     }
 
     fn entity(&mut self, category: Category, (name, name_at): TypeName, params: Params) {
@@ -99,7 +103,8 @@ impl Builder {
         }
     }
 
-    /// Finds the type and checks the parameters against its table.
+    /// Finds the type and checks the parameters against its table. `None` where there was a fault that makes
+    /// others look as if they were there.
     pub(super) fn checked(
         &mut self,
         category: Category,
@@ -108,8 +113,8 @@ impl Builder {
     ) -> Option<(&'static Entity, Params)> {
         let entity = check::entity(&mut self.report, category, &name, at)?;
         let what = format!("{} \"{name}\"", category.noun());
-        check::params(&mut self.report, category, &what, entity.rows(), &mut params.own);
-        Some((entity, params))
+        check::params(&mut self.report, category, &what, entity.rows(), &mut params);
+        (!params.broken).then_some((entity, params))
     }
 
     fn setup(&mut self, category: Category, entity: &'static Entity, params: Params) {

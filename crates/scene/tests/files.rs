@@ -1,0 +1,166 @@
+//! Scenes made of several files.
+#![allow(
+    clippy::unwrap_used,
+    clippy::float_cmp,
+    reason = "tests stop where something is missing; values are exact"
+)]
+
+use std::fs;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use sparrow_scene::{ShapeKind, SpectrumDesc, SpectrumTexture, read};
+
+/// A folder of its own for each test, removed at the end.
+struct Folder(PathBuf);
+
+impl Folder {
+    fn new(name: &str) -> Self {
+        let dir = std::env::temp_dir().join(format!("sparrow-scene-{name}-{}", std::process::id()));
+        fs::create_dir_all(dir.join("sub")).unwrap();
+        Folder(dir)
+    }
+    fn write(&self, name: &str, text: impl AsRef<[u8]>) -> PathBuf {
+        let path = self.0.join(name);
+        fs::write(&path, text).unwrap();
+        path
+    }
+    /// The faults of a scene, without the folder's name.
+    fn faults(&self, path: &Path) -> String {
+        let e = read(path).map(|_| ()).unwrap_err().to_string();
+        e.replace(&format!("{}{}", self.0.display(), std::path::MAIN_SEPARATOR), "").replace('\\', "/")
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        // What is left in the folder for temporary files does no harm.
+        let _ = fs::remove_dir_all(&self.0);
+    }
+}
+
+const TRIANGLE: &str = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n\
+    property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n\
+    0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+
+#[test]
+fn includes_start_at_the_scene_file_and_keep_the_state() {
+    let f = Folder::new("include");
+    let main = f
+        .write("main.pbrt", "WorldBegin AttributeBegin Include \"sub/a.pbrt\" Shape \"sphere\" AttributeEnd");
+    f.write("sub/a.pbrt", "Translate 1 0 0\r\nInclude \"sub/b.pbrt\"");
+    f.write("sub/b.pbrt", "Translate 0 2 0");
+    let s = read(&main).unwrap();
+    assert_eq!(s.shapes[0].to_world.rows()[0][3], 1.0);
+    assert_eq!(s.shapes[0].to_world.rows()[1][3], 2.0);
+    assert_eq!(s.files, [main, f.0.join("sub/a.pbrt"), f.0.join("sub/b.pbrt")]);
+}
+
+#[test]
+fn imports_leave_the_state_as_it_was() {
+    let f = Folder::new("import");
+    let main = f.write(
+        "main.pbrt",
+        "WorldBegin Translate 1 0 0 Import \"a.pbrt\" NamedMaterial \"m\" Shape \"sphere\"",
+    );
+    f.write("a.pbrt", "Translate 5 0 0 MakeNamedMaterial \"m\" \"string type\" \"conductor\" Shape \"disk\"");
+    let s = read(&main).unwrap();
+    let x: Vec<f64> = s.shapes.iter().map(|s| s.to_world.rows()[0][3]).collect();
+    assert_eq!(x, [6.0, 1.0]);
+    f.write("a.pbrt", "AttributeBegin\nTranslate 1 1 1");
+    assert!(f.faults(&main).contains("a.pbrt:1:1: `AttributeBegin` is never closed; add `AttributeEnd`"));
+}
+
+#[test]
+fn a_cycle_of_includes_is_shown() {
+    let f = Folder::new("cycle");
+    let main = f.write("main.pbrt", "WorldBegin\nInclude \"a.pbrt\"");
+    f.write("a.pbrt", "Identity\n Include \"b.pbrt\"");
+    f.write("b.pbrt", "Include \"./sub/../a.pbrt\"");
+    let want = "b.pbrt:1:9: the file includes itself: a.pbrt -> b.pbrt -> a.pbrt; remove one of these";
+    assert_eq!(f.faults(&main), want);
+}
+
+#[test]
+fn faults_in_included_files_have_their_place() {
+    let f = Folder::new("places");
+    let main = f.write("main.pbrt", "WorldBegin\nInclude \"a.pbrt\"\nShape \"cone\"\n");
+    f.write("a.pbrt", "\n\tShape \"shpere\"");
+    let faults = f.faults(&main);
+    let mut lines = faults.lines();
+    assert!(
+        lines.next().unwrap().starts_with("main.pbrt:3:7: there is no shape \"cone\"; known are"),
+        "{faults}"
+    );
+    assert_eq!(lines.next(), Some("a.pbrt:2:8: there is no shape \"shpere\"; did you mean \"sphere\"?"));
+}
+
+#[test]
+fn compressed_files_are_read() {
+    let f = Folder::new("gzip");
+    let main = f.write("main.pbrt", "WorldBegin Include \"a.pbrt.gz\"");
+    let mut gz = flate2::write::GzEncoder::new(Vec::new(), flate2::Compression::fast());
+    gz.write_all(b"Shape \"sphere\"").unwrap();
+    f.write("a.pbrt.gz", gz.finish().unwrap());
+    assert_eq!(read(&main).unwrap().shapes.len(), 1);
+    f.write("a.pbrt.gz", b"\x1f\x8b broken");
+    assert!(f.faults(&main).starts_with("main.pbrt:1:20: \"a.pbrt.gz\" cannot be read, "));
+}
+
+#[test]
+fn a_mesh_file_is_read_once() {
+    let f = Folder::new("ply");
+    f.write("sub/t.ply", TRIANGLE);
+    let shape = "Shape \"plymesh\" \"string filename\" \"sub/t.ply\"\n";
+    let main = f.write("main.pbrt", format!("WorldBegin {shape}{shape}"));
+    let s = read(&main).unwrap();
+    let (ShapeKind::Mesh(a), ShapeKind::Mesh(b)) = (&s.shapes[0].kind, &s.shapes[1].kind) else { panic!() };
+    assert!(std::sync::Arc::ptr_eq(a, b));
+    assert_eq!(a.triangles, [[0, 1, 2]]);
+}
+
+#[test]
+fn quads_of_a_mesh_file_become_patches() {
+    let f = Folder::new("quads");
+    let quad = TRIANGLE.replace("vertex 3", "vertex 4").replace("3 0 1 2\n", "1 1 0\n4 0 1 3 2\n");
+    f.write("q.ply", quad);
+    let main = f.write("main.pbrt", "WorldBegin Shape \"plymesh\" \"string filename\" \"q.ply\"");
+    let s = read(&main).unwrap();
+    let ShapeKind::Mesh(m) = &s.shapes[0].kind else { panic!() };
+    // Around the face 0 1 3 2, so that rows of the patch are 0 1 and 2 3.
+    assert_eq!((m.patches.as_slice(), m.triangles.len()), ([[0, 1, 2, 3]].as_slice(), 0));
+}
+
+#[test]
+fn a_damaged_mesh_file_is_one_fault_however_often_it_is_used() {
+    let f = Folder::new("damaged");
+    f.write("t.ply", &TRIANGLE[..TRIANGLE.len() - 4]);
+    let shape = "Shape \"plymesh\" \"string filename\" \"t.ply\"\n";
+    let main = f.write("main.pbrt", format!("WorldBegin\n{shape}{shape}"));
+    let faults = f.faults(&main);
+    assert_eq!(faults.lines().count(), 1, "{faults}");
+    assert!(faults.starts_with("main.pbrt:2:35: \"t.ply\" cannot be read: "), "{faults}");
+}
+
+#[test]
+fn spectra_come_from_files() {
+    let f = Folder::new("spd");
+    f.write("s.spd", "# nm value\n400 0.5\n700 1\n");
+    let main = f.write("main.pbrt", "WorldBegin Material \"diffuse\" \"spectrum reflectance\" \"s.spd\"");
+    let s = read(&main).unwrap();
+    let samples = s.spectrum_textures.iter().find_map(|t| {
+        if let SpectrumTexture::Constant(SpectrumDesc::Samples(s)) = t { Some(s.to_vec()) } else { None }
+    });
+    assert_eq!(samples.as_deref(), Some([(400.0, 0.5), (700.0, 1.0)].as_slice()));
+    f.write("s.spd", "400 x");
+    assert!(f.faults(&main).starts_with("main.pbrt:1:54: the spectrum \"s.spd\" cannot be read: "));
+}
+
+#[test]
+fn a_missing_scene_or_one_in_utf16_is_refused() {
+    let f = Folder::new("missing");
+    let want = "no.pbrt: the scene cannot be read, there is no such file; check the path";
+    assert_eq!(f.faults(&f.0.join("no.pbrt")), want);
+    let main = f.write("main.pbrt", b"\xff\xfeW\0o\0r\0l\0d\0");
+    assert!(f.faults(&main).starts_with("main.pbrt: the file is UTF-16; save it as UTF-8"));
+}
