@@ -1,6 +1,6 @@
 //! How a picture is taken of a scene: everything a render needs beside the scene itself.
 
-use sparrow_scene::{FilterDesc, RandomizeName, SamplerDesc, SamplerName, SceneDesc};
+use sparrow_scene::{FilterDesc, IntegratorDesc, RandomizeName, SamplerDesc, SamplerName, SceneDesc};
 use sparrow_spectra::{Sensor, Spectrum, Wavelengths};
 
 use crate::filter::{Filter, FilterSampler};
@@ -53,7 +53,7 @@ impl RenderPlan {
     pub fn new(desc: &SceneDesc) -> Result<RenderPlan, Vec<String>> {
         let mut faults = Vec::new();
         let film = &desc.film;
-        let mis = desc.integrator.mis.parse::<Mis>().unwrap_or_else(|e| {
+        let mis = mis(&desc.integrator).unwrap_or_else(|e| {
             faults.push(e);
             Mis::Balance
         });
@@ -85,6 +85,19 @@ impl RenderPlan {
     pub fn size(&self) -> [u32; 2] {
         let [x0, x1, y0, y1] = self.bounds;
         [x1.saturating_sub(x0), y1.saturating_sub(y0)]
+    }
+}
+
+/// The heuristic; switching one technique off leaves all to the other.
+fn mis(desc: &IntegratorDesc) -> Result<Mis, String> {
+    match (desc.sample_lights, desc.sample_bsdf) {
+        (true, true) => desc.mis.parse(),
+        (true, false) => Ok(Mis::LightOnly),
+        (false, true) => Ok(Mis::BsdfOnly),
+        (false, false) => {
+            Err("neither lights nor the BSDF are sampled; set \"samplelights\" or \"samplebsdf\" to true"
+                .into())
+        }
     }
 }
 
