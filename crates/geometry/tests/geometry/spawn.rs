@@ -122,3 +122,27 @@ fn shadow_rays_end_before_the_light() {
         }
     }
 }
+
+/// Large tilted triangles: grazing rays that leave do not come back, and what lies close above is not overlooked.
+#[test]
+fn large_triangles_grazed() {
+    let mut rng = Rng(4);
+    for _ in 0..300 {
+        let g = Geometry::build(vec![super::triangles(&mut rng, 1, 1000.0)]);
+        let Some(aim) = g.sample_area(0, 0, rng.pair()) else { continue };
+        let o = aim.p + rng.direction() * 10.0;
+        let ray = Ray::new(o, aim.p - o);
+        let Some(hit) = g.intersect(&ray) else { continue };
+        let s = g.surface(&ray, &hit);
+        for _ in 0..200 {
+            let along = rng.direction();
+            let along = (along - s.ng * s.ng.dot(along)).normalized();
+            let away = along + s.ng * rng.between(1e-5, 1e-3);
+            assert!(!g.occluded(&s.spawn(away)), "{s:?} {away:?}");
+            // Higher than the coordinates are coarse, and far below the bound of the error of t at this size.
+            let height = 1e-3;
+            let above = Ray::new(s.p + s.ng * height, along - s.ng);
+            assert!(g.occluded(&above), "{s:?} {above:?}");
+        }
+    }
+}
