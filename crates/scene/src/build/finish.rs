@@ -13,7 +13,7 @@ use crate::diagnostic::{SceneError, Span};
 use crate::suggest::remedy;
 
 /// Instances make shapes of their own; more than this would fill the memory before a ray is traced.
-const MAX_SHAPES: usize = 20_000_000;
+const MAX_SHAPES: usize = 10_000_000;
 
 impl Builder {
     /// Resolves all names and returns the scene, or everything that is wrong with it.

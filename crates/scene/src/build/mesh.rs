@@ -103,6 +103,7 @@ impl Builder {
                 return None;
             }
         };
+        self.report.add_file(path.to_path_buf());
         for note in &read.notes {
             self.report.warn(at, format!("\"{name}\": {note}"));
         }

@@ -117,7 +117,10 @@ impl Builder {
             return known.clone().map(SpectrumDesc::Samples);
         }
         let read = match spd::read(&path) {
-            Ok(samples) => Some(sampled(samples)),
+            Ok(samples) => {
+                self.report.add_file(path.clone());
+                Some(sampled(samples))
+            }
             Err(e) => {
                 self.report.error(at, format!("the spectrum \"{name}\" cannot be read: {e}"));
                 None
