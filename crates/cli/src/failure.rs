@@ -67,6 +67,8 @@ pub(crate) struct Failure {
     code: u8,
     errors: Vec<Remark>,
     warnings: Vec<Remark>,
+    /// The warnings are in the log already.
+    told: bool,
 }
 
 #[derive(Serialize)]
@@ -81,22 +83,25 @@ struct JsonFailure<'a> {
 impl Failure {
     /// The user's input was wrong.
     pub(crate) fn input(message: impl Into<String>) -> Failure {
-        Failure { code: INPUT, errors: vec![Remark::plain(message)], warnings: Vec::new() }
+        Failure::plain(INPUT, message)
     }
     /// The command line was wrong.
     pub(crate) fn usage(message: impl Into<String>) -> Failure {
-        Failure { code: USAGE, errors: vec![Remark::plain(message)], warnings: Vec::new() }
+        Failure::plain(USAGE, message)
     }
     /// It ended before anything was there to be saved.
     pub(crate) fn interrupted(message: &str) -> Failure {
-        Failure { code: INTERRUPTED, errors: vec![Remark::plain(message)], warnings: Vec::new() }
+        Failure::plain(INTERRUPTED, message)
+    }
+    fn plain(code: u8, message: impl Into<String>) -> Failure {
+        Failure { code, errors: vec![Remark::plain(message)], warnings: Vec::new(), told: true }
     }
     /// The scene file was wrong.
     pub(crate) fn scene(e: &SceneError) -> Failure {
         let remarks = |list: &[Diagnostic]| list.iter().map(|d| Remark::of(d, &e.files)).collect();
-        Failure { code: INPUT, errors: remarks(&e.faults), warnings: remarks(&e.warnings) }
+        Failure { code: INPUT, errors: remarks(&e.faults), warnings: remarks(&e.warnings), told: false }
     }
-    /// The scene was read, but cannot be rendered.
+    /// The scene was read and its warnings told, but it cannot be rendered.
     pub(crate) fn in_scene(scene: &Path, messages: Vec<String>, warnings: Vec<Remark>) -> Failure {
         let mut errors: Vec<Remark> = Vec::new();
         for m in messages {
@@ -105,12 +110,13 @@ impl Failure {
                 errors.push(Remark::in_file(scene, &m));
             }
         }
-        Failure { code: INPUT, errors, warnings }
+        Failure { code: INPUT, errors, warnings, told: true }
     }
 
     /// Tells the user, and gives the exit code.
-    pub(crate) fn report(&self, json: bool) -> ExitCode {
-        for remark in self.warnings.iter().chain(&self.errors) {
+    pub(crate) fn report(&self, json: bool, quiet: bool) -> ExitCode {
+        let told = self.told || quiet;
+        for remark in self.warnings.iter().filter(|_| !told).chain(&self.errors) {
             console::log(&remark.text);
         }
         if json {

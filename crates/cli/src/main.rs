@@ -36,9 +36,9 @@ fn main() -> ExitCode {
         Ok(cli) => cli,
         Err(e) => return answer(&e),
     };
-    let (json, done) = match &cli.verb {
-        Some(Verb::Render(a)) => (a.json, render_cmd::run(a)),
-        Some(Verb::Info(a)) => (a.json, info_cmd::run(a)),
+    let (json, quiet, done) = match &cli.verb {
+        Some(Verb::Render(a)) => (a.json, a.quiet, render_cmd::run(a)),
+        Some(Verb::Info(a)) => (a.json, false, info_cmd::run(a)),
         None => {
             // A broken pipe is no reason to complain about the help that nobody reads.
             let _ = Cli::command().print_help();
@@ -47,7 +47,7 @@ fn main() -> ExitCode {
     };
     match done {
         Ok(code) => ExitCode::from(code),
-        Err(failure) => failure.report(json),
+        Err(failure) => failure.report(json, quiet),
     }
 }
 

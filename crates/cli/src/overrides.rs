@@ -86,6 +86,19 @@ fn at_least_one(lo: u32, hi: u32, n: u32) -> [u32; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::args::{Cli, Verb};
+    use clap::Parser;
+    use std::path::Path;
+
+    /// The description of a scene with this film and sampler, after these options.
+    fn after(statements: &str, options: &str) -> SceneDesc {
+        let text = format!("{statements}\nWorldBegin\n");
+        let mut desc = sparrow_scene::read_str(&text, "test.pbrt", Path::new(".")).unwrap();
+        let words = ["sparrow", "render", "test.pbrt"].into_iter().chain(options.split_whitespace());
+        let Some(Verb::Render(args)) = Cli::try_parse_from(words).unwrap().verb else { panic!("no render") };
+        apply(&args, &mut desc);
+        desc
+    }
 
     #[test]
     fn crops_tile_the_picture() {
@@ -95,5 +108,40 @@ mod tests {
         assert_eq!(left, [0, 31, 0, 7]);
         assert_eq!(right, [31, 101, 0, 7]);
         assert_eq!(bounds_of(Crop([0.501, 0.502, 0.999, 1.0]), res), [51, 52, 6, 7], "never empty");
+    }
+
+    #[test]
+    fn a_crop_keeps_its_place_in_another_resolution() {
+        let film = "Film \"rgb\" \"integer xresolution\" 100 \"integer yresolution\" 50 \"integer pixelbounds\" [25 75 0 25]";
+        let film_of = |options| after(film, options).film;
+        assert_eq!(film_of("").pixel_bounds, [25, 75, 0, 25]);
+        let half = film_of("--resolution 50x25");
+        assert_eq!((half.resolution, half.pixel_bounds), ([50, 25], [13, 38, 0, 13]));
+        assert_eq!(film_of("--resolution 200x100").pixel_bounds, [50, 150, 0, 50]);
+        assert_eq!(film_of("--resolution 1x1").pixel_bounds, [0, 1, 0, 1]);
+        assert_eq!(film_of("--resolution 40x40 --crop 0,0.5,0.5,1").pixel_bounds, [0, 20, 20, 40]);
+    }
+
+    #[test]
+    fn options_win_over_the_scene() {
+        let scene = "Sampler \"stratified\" \"integer xsamples\" 3 \"integer ysamples\" 3 \"integer seed\" 5\n\
+                     Integrator \"path\" \"integer maxdepth\" 9 \"string lightsampler\" \"uniform\"";
+        let untouched = after(scene, "");
+        assert_eq!((untouched.sampler.strata, untouched.sampler.seed), ([3, 3], Some(5)));
+        assert_eq!(untouched.integrator.max_depth, 9);
+        let desc = after(
+            scene,
+            "--spp 24 --seed 7 --max-depth 0 --integrator directlighting --mis power:1.5 --lightsampler power \
+             --mis-compensation off --half=off",
+        );
+        assert_eq!((desc.sampler.strata, desc.sampler.samples_per_pixel), ([6, 4], 24));
+        assert_eq!((desc.seed, desc.sampler.seed), (7, None));
+        let i = &desc.integrator;
+        assert_eq!((i.max_depth, i.name, i.mis.as_str()), (0, IntegratorName::DirectLighting, "power:1.5"));
+        assert_eq!((i.light_sampler, i.mis_compensation), (LightSamplerName::Power, false));
+        assert!(!desc.film.save_fp16);
+        assert_eq!(after(scene, "--time 1").sampler.samples_per_pixel, MAX_SPP);
+        assert_eq!(after(scene, "--time 1 --spp 4").sampler.samples_per_pixel, 4);
+        assert!(after(scene, "--half").film.save_fp16);
     }
 }

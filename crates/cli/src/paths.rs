@@ -46,6 +46,9 @@ pub(crate) fn check_writable(path: &Path) -> Result<(), Failure> {
     let Some(name) = path.file_name() else {
         return fail("this names a folder; add a file name".to_owned());
     };
+    if is_special(path) {
+        return Ok(());
+    }
     if path.is_dir() {
         return fail("there is a folder of that name; choose another name".to_owned());
     }
@@ -88,8 +91,13 @@ pub(crate) fn check_no_input<'a>(
     }
 }
 
+/// A device or a pipe, such as `/dev/null`: written to, never replaced.
+fn is_special(path: &Path) -> bool {
+    path.metadata().is_ok_and(|m| !m.is_file() && !m.is_dir())
+}
+
 /// The folder that a file lies in.
-pub(crate) fn folder_of(path: &Path) -> &Path {
+fn folder_of(path: &Path) -> &Path {
     path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
@@ -103,7 +111,11 @@ pub(crate) fn write_whole(path: &Path, text: &str) -> Result<(), Failure> {
     name.push(format!(".{}.tmp", process::id()));
     let temporary = path.with_file_name(name);
     let _files = interrupt::hold_files();
-    let done = fs::write(&temporary, text).and_then(|()| fs::rename(&temporary, path));
+    let done = if is_special(path) {
+        fs::write(path, text)
+    } else {
+        fs::write(&temporary, text).and_then(|()| fs::rename(&temporary, path))
+    };
     done.map_err(|e| {
         // The first error is the one worth telling.
         let _ = fs::remove_file(&temporary);

@@ -153,9 +153,7 @@ fn build(
     stats: &mut Stats,
     log: &mut Log,
 ) -> Result<(Scene, RenderPlan), Failure> {
-    let refused = |faults| {
-        Failure::in_scene(&args.scene, faults, if args.quiet { Vec::new() } else { warnings.to_vec() })
-    };
+    let refused = |faults| Failure::in_scene(&args.scene, faults, warnings.to_vec());
     let plan = RenderPlan::new(&desc).map_err(refused)?;
     stats.samples_per_pixel_wanted = plan.samples_per_pixel;
     stats.sampler_notes = plan.sampler.notes();

@@ -168,7 +168,8 @@ pub(crate) struct Outcome<'a> {
 pub(crate) fn si(v: f64) -> String {
     let prefixes = [(1e12, "T"), (1e9, "G"), (1e6, "M"), (1e3, "k")];
     match prefixes.iter().find(|(size, _)| v >= *size) {
-        Some((size, prefix)) => format!("{:.2} {prefix}", v / size),
+        Some((size, prefix)) if v < 10.0 * size => format!("{:.2} {prefix}", v / size),
+        Some((size, prefix)) => format!("{:.1} {prefix}", v / size),
         None => format!("{v:.1} "),
     }
 }
@@ -197,7 +198,7 @@ mod tests {
 
     #[test]
     fn numbers_are_short() {
-        assert_eq!([si(0.5), si(999.0), si(1250.0), si(3e6)], ["0.5 ", "999.0 ", "1.25 k", "3.00 M"]);
+        assert_eq!([si(0.5), si(999.0), si(1250.0), si(3e7)], ["0.5 ", "999.0 ", "1.25 k", "30.0 M"]);
         assert_eq!([bytes(1023), bytes(1536), bytes(3 << 30)], ["1023 B", "1.5 KiB", "3.0 GiB"]);
         assert_eq!([clock(59.9), clock(61.0), clock(3661.0)], ["0:59", "1:01", "1:01:01"]);
     }

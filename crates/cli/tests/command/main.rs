@@ -1,0 +1,10 @@
+//! The command as scripts see it: exit codes, texts, files.
+
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test that cannot go on has failed")]
+
+mod errors;
+mod info;
+#[cfg(unix)]
+mod interrupts;
+mod render;
+mod scratch;
