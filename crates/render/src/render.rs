@@ -120,7 +120,8 @@ pub fn render(
     let origins: Vec<[u32; 2]> = (0..height.div_ceil(TILE))
         .flat_map(|y| (0..width.div_ceil(TILE)).map(move |x| [x * TILE, y * TILE]))
         .collect();
-    let total = u64::from(width) * u64::from(height) * u64::from(plan.samples_per_pixel);
+    let samples_of = |per_pixel: u32| u64::from(width) * u64::from(height) * u64::from(per_pixel);
+    let total = samples_of(plan.samples_per_pixel);
     let mut done = 0;
     let mut pass = 1;
     while done < plan.samples_per_pixel && !shared.ended() {
@@ -132,6 +133,9 @@ pub fn render(
                 })
             })
         })?;
+        if shared.samples.load(Ordering::Relaxed) < samples_of(done + n) {
+            break; // It was stopped within the pass.
+        }
         done += n;
         pass = (2 * pass).min(MAX_PASS);
     }
@@ -141,7 +145,7 @@ pub fn render(
     let stats = RenderStats {
         rays,
         samples,
-        samples_per_pixel: if samples == total { plan.samples_per_pixel } else { done },
+        samples_per_pixel: done,
         stopped: samples < total,
         rejected: film.rejected(),
         elapsed: start.elapsed(),
