@@ -1,7 +1,7 @@
 //! Ctrl-C: once saves, twice ends.
 
 use std::io::{BufRead, BufReader};
-use std::process::Child;
+use std::process::{Child, ChildStderr};
 use std::thread::sleep;
 use std::time::Duration;
 
@@ -10,46 +10,65 @@ use nix::unistd::Pid;
 
 use crate::scratch::{Ran, Scratch};
 
-/// Starts a render that would take hours, and waits until it is on its way.
-fn long_render(s: &Scratch) -> (Child, BufReader<std::process::ChildStderr>) {
-    let mut child = s.command("render room.pbrt --spp 4000000 --json").spawn().unwrap();
-    let mut err = BufReader::new(child.stderr.take().unwrap());
-    let mut line = String::new();
-    err.read_line(&mut line).unwrap();
-    assert!(line.starts_with("rendering 64 x 48 pixels"), "{line}");
-    sleep(Duration::from_millis(300));
-    (child, err)
+/// A render that would take hours; it ends with the test at the latest.
+struct LongRender {
+    child: Option<Child>,
+    log: BufReader<ChildStderr>,
 }
 
-fn interrupt(child: &Child) {
-    kill(Pid::from_raw(i32::try_from(child.id()).unwrap()), Signal::SIGINT).unwrap();
+impl LongRender {
+    /// Starts it, and waits until it is on its way.
+    fn start(s: &Scratch) -> LongRender {
+        let mut child = s.command("render room.pbrt --spp 4194304 --json").spawn().unwrap();
+        let log = BufReader::new(child.stderr.take().unwrap());
+        let mut render = LongRender { child: Some(child), log };
+        let mut line = String::new();
+        render.log.read_line(&mut line).unwrap();
+        assert!(line.starts_with("rendering 64 x 48 pixels"), "{line}");
+        sleep(Duration::from_millis(300));
+        render
+    }
+    fn interrupt(&self) {
+        let id = self.child.as_ref().unwrap().id();
+        kill(Pid::from_raw(i32::try_from(id).unwrap()), Signal::SIGINT).unwrap();
+    }
+    fn wait(&mut self) -> Ran {
+        Ran::from(self.child.take().unwrap().wait_with_output().unwrap())
+    }
+}
+
+impl Drop for LongRender {
+    fn drop(&mut self) {
+        if let Some(child) = &mut self.child {
+            let _ = child.kill().and_then(|()| child.wait());
+        }
+    }
 }
 
 #[test]
 fn the_first_saves_what_is_there() {
     let s = Scratch::new();
-    let (child, err) = long_render(&s);
-    interrupt(&child);
-    let ran = Ran::from(child.wait_with_output().unwrap());
+    let mut render = LongRender::start(&s);
+    render.interrupt();
+    let ran = render.wait();
     assert_eq!(ran.code, Some(130), "{ran:?}");
     let json = ran.json();
     assert_eq!((&json["status"], &json["exit_code"]), (&"interrupted".into(), &130.into()));
     let stats = &json["stats"];
-    let (samples, per_pixel) =
-        (stats["samples"].as_u64().unwrap(), stats["samples_per_pixel"].as_u64().unwrap());
+    let [samples, per_pixel] = ["samples", "samples_per_pixel"].map(|k| stats[k].as_u64().unwrap());
     assert!(samples > 0 && per_pixel * 64 * 48 <= samples, "{stats}");
     assert_eq!(s.files(), ["named.exr", "named.png", "room.pbrt"]);
-    let last = err.lines().map_while(Result::ok).last().unwrap();
+    let last = (&mut render.log).lines().map_while(Result::ok).last().unwrap();
     assert!(last.contains("as far as it was rendered"), "{last}");
 }
 
 #[test]
 fn the_second_ends_at_once_and_leaves_whole_files() {
     let s = Scratch::new();
-    let (child, _err) = long_render(&s);
-    interrupt(&child);
-    interrupt(&child);
-    let ran = Ran::from(child.wait_with_output().unwrap());
+    let mut render = LongRender::start(&s);
+    render.interrupt();
+    render.interrupt();
+    let ran = render.wait();
     assert_eq!(ran.code, Some(130), "{ran:?}");
     let files = s.files();
     assert!(files.iter().all(|f| !f.ends_with(".tmp")), "{files:?}");

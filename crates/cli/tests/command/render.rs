@@ -72,7 +72,8 @@ fn the_file_says_how_it_was_made() {
     let eye = m.map(|r| r[1] - 4.0 * r[2] + r[3]);
     assert!(eye[..3].iter().all(|v| v.abs() < 1e-5), "{eye:?}");
     let Some(Attribute::Matrix(back)) = header.attribute("cameraToWorld") else { panic!("no cameraToWorld") };
-    assert_eq!(back.map(|r| r[3]), [0.0, 1.0, -4.0, 1.0]);
+    let eye: Vec<String> = back.iter().map(|r| r[3].to_string()).collect();
+    assert_eq!(eye, ["0", "1", "-4", "1"]);
     // It looks at (0, 0.8, 0), which is therefore in the middle of the picture.
     let n = header.world_to_ndc.unwrap().map(|r| 0.8 * r[1] + r[3]);
     assert!((n[0] / n[3] - 0.5).abs() < 1e-5 && (n[1] / n[3] - 0.5).abs() < 1e-5, "{n:?}");
