@@ -102,14 +102,9 @@ impl Failure {
         Failure { code: INPUT, errors: remarks(&e.faults), warnings: remarks(&e.warnings), told: false }
     }
     /// The scene was read and its warnings told, but it cannot be rendered.
-    pub(crate) fn in_scene(scene: &Path, messages: Vec<String>, warnings: Vec<Remark>) -> Failure {
-        let mut errors: Vec<Remark> = Vec::new();
-        for m in messages {
-            // The same image, used twice, is broken once.
-            if !errors.iter().any(|e| e.message == m) {
-                errors.push(Remark::in_file(scene, &m));
-            }
-        }
+    pub(crate) fn in_scene(mut errors: Vec<Remark>, warnings: Vec<Remark>) -> Failure {
+        // The same image, used twice, is broken once.
+        errors.dedup_by(|a, b| a.text == b.text);
         Failure { code: INPUT, errors, warnings, told: true }
     }
 

@@ -1,5 +1,6 @@
 //! Ctrl-C, and the system's request to end: the first stops the render, the second the program.
 
+use std::io::{self, IsTerminal};
 use std::process;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -18,7 +19,11 @@ static FILES: Mutex<()> = Mutex::new(());
 pub(crate) fn install() {
     let _ = ctrlc::set_handler(|| {
         if RENDERING.load(Ordering::SeqCst) && !STOP.swap(true, Ordering::SeqCst) {
-            console::log("\nstopping at the next tile and saving the picture; once more to end at once");
+            // On a terminal, `^C` stands in the bar's line.
+            let start = if io::stderr().is_terminal() { "\n" } else { "" };
+            console::log(format_args!(
+                "{start}stopping at the next tile and saving the picture; once more to end at once"
+            ));
             return;
         }
         // A file that is being written becomes whole first; none is begun after it.

@@ -150,7 +150,7 @@ impl Inventory {
             lights: Lights::new(desc),
             float_textures: counted(desc.float_textures.iter().map(float_kind)),
             spectrum_textures: counted(desc.spectrum_textures.iter().map(spectrum_kind)),
-            images: images::of(desc).iter().map(|p| p.display().to_string()).collect(),
+            images: images::of(desc).iter().map(|i| i.0.display().to_string()).collect(),
             camera: Camera::new(desc),
             film: Film::new(desc),
             sampler: Sampler {

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use sparrow_render::film::Film;
 use sparrow_render::{Compiled, RenderOptions, RenderPlan, RenderStats, Scene, compile, render};
-use sparrow_scene::{FilmDesc, SceneDesc};
+use sparrow_scene::{Diagnostic, FilmDesc, SceneDesc, Span};
 
 use crate::args::{MAX_SPP, RenderArgs};
 use crate::failure::{self, DONE, Failure, INTERRUPTED, Remark};
@@ -119,7 +119,8 @@ fn outputs(args: &RenderArgs, desc: &SceneDesc) -> Result<Outputs, Failure> {
             )));
         }
     }
-    let inputs: Vec<&Path> = desc.files.iter().map(|f| f.as_path()).chain(images::of(desc)).collect();
+    let inputs: Vec<&Path> =
+        desc.files.iter().map(|f| f.as_path()).chain(images::of(desc).into_iter().map(|i| i.0)).collect();
     for path in [Some(out.exr.as_path()), Some(out.png.as_path()), stats].into_iter().flatten() {
         paths::check_no_input(path, inputs.iter().copied())?;
     }
@@ -153,7 +154,16 @@ fn build(
     stats: &mut Stats,
     log: &mut Log,
 ) -> Result<(Scene, RenderPlan), Failure> {
-    let refused = |faults| Failure::in_scene(&args.scene, faults, warnings.to_vec());
+    let files = desc.files.clone();
+    let images: Vec<(String, Span)> =
+        images::of(&desc).iter().map(|(path, at)| (path.display().to_string(), *at)).collect();
+    // What is wrong with an image is told without its place, which the description knew.
+    let located = |message: String| match images.iter().find(|i| message.starts_with(&i.0)) {
+        Some(&(_, at)) => Remark::of(&Diagnostic::error(at, message), &files),
+        None => Remark::in_file(&args.scene, &message),
+    };
+    let refused =
+        |faults: Vec<String>| Failure::in_scene(faults.into_iter().map(located).collect(), warnings.to_vec());
     let plan = RenderPlan::new(&desc).map_err(refused)?;
     stats.samples_per_pixel_wanted = plan.samples_per_pixel;
     stats.sampler_notes = plan.sampler.notes();

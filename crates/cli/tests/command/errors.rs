@@ -91,6 +91,22 @@ fn what_cannot_be_read_or_written_ends_with_1() {
 }
 
 #[test]
+fn a_broken_image_is_told_where_it_is_used() {
+    let s = Scratch::new();
+    s.put("broken.png", "no picture");
+    let texture = "Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"broken.png\"\n";
+    let material = "Material \"diffuse\" \"texture reflectance\" \"t\"\nShape \"sphere\"\n";
+    s.put("image.pbrt", &format!("WorldBegin\n{texture}{material}{material}"));
+    let ran = s.run("render image.pbrt --json");
+    assert_eq!(ran.code, Some(1), "{ran:?}");
+    let told: Vec<&str> = ran.err.lines().filter(|l| l.contains("broken.png: ")).collect();
+    assert_eq!(told.len(), 1, "{ran:?}");
+    assert!(told[0].starts_with("image.pbrt:2:"), "{ran:?}");
+    assert_eq!(ran.json()["errors"][0]["line"], 2);
+    assert_eq!(s.files(), ["broken.png", "image.pbrt", "room.pbrt"]);
+}
+
+#[test]
 fn no_input_is_overwritten() {
     let s = Scratch::new();
     let ran = s.run("render room.pbrt --stats room.pbrt");
