@@ -35,6 +35,8 @@ pub(crate) fn apply(args: &RenderArgs, desc: &mut SceneDesc) {
     integrator.max_depth = args.max_depth.unwrap_or(integrator.max_depth);
     if let Some(mis) = args.mis {
         integrator.mis = mis.to_string();
+        // These switch off one of the two techniques; so does the option, by `light-only` and `bsdf-only`.
+        (integrator.sample_lights, integrator.sample_bsdf) = (true, true);
     }
     if let Some(switch) = args.mis_compensation {
         integrator.mis_compensation = switch.is_on();
@@ -125,7 +127,7 @@ mod tests {
     #[test]
     fn options_win_over_the_scene() {
         let scene = "Sampler \"stratified\" \"integer xsamples\" 3 \"integer ysamples\" 3 \"integer seed\" 5\n\
-                     Integrator \"path\" \"integer maxdepth\" 9 \"string lightsampler\" \"uniform\"";
+                     Integrator \"path\" \"integer maxdepth\" 9 \"string lightsampler\" \"uniform\" \"bool samplelights\" false";
         let untouched = after(scene, "");
         assert_eq!((untouched.sampler.strata, untouched.sampler.seed), ([3, 3], Some(5)));
         assert_eq!(untouched.integrator.max_depth, 9);
@@ -139,6 +141,7 @@ mod tests {
         let i = &desc.integrator;
         assert_eq!((i.max_depth, i.name, i.mis.as_str()), (0, IntegratorName::DirectLighting, "power:1.5"));
         assert_eq!((i.light_sampler, i.mis_compensation), (LightSamplerName::Power, false));
+        assert!(i.sample_lights && i.sample_bsdf, "--mis names the techniques");
         assert!(!desc.film.save_fp16);
         assert_eq!(after(scene, "--time 1").sampler.samples_per_pixel, MAX_SPP);
         assert_eq!(after(scene, "--time 1 --spp 4").sampler.samples_per_pixel, 4);

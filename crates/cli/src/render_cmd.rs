@@ -166,6 +166,7 @@ fn build(
         |faults: Vec<String>| Failure::in_scene(faults.into_iter().map(located).collect(), warnings.to_vec());
     let plan = RenderPlan::new(&desc).map_err(refused)?;
     stats.samples_per_pixel_wanted = plan.samples_per_pixel;
+    stats.mis = plan.integrator.mis.to_string();
     stats.sampler_notes = plan.sampler.notes();
     stats.sampler_notes.iter().for_each(|n| log.line(&format!("note: {n}")));
     let Compiled { scene, notes } = compile(desc, plan.integrator.mis).map_err(|e| refused(e.0))?;
