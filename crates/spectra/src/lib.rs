@@ -21,6 +21,7 @@ mod rgb;
 mod sampled;
 mod sensor;
 mod sigmoid;
+mod visible;
 mod wavelengths;
 
 pub use blackbody::{blackbody, blackbody_normalized, daylight};
