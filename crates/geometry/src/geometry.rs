@@ -219,6 +219,18 @@ impl Geometry {
         }
     }
 
+    /// Derivatives of the shading normal by the texture coordinates at `hit`, which this geometry gave for `ray`.
+    ///
+    /// Few materials ask for them, so they are not part of [`SurfacePoint`].
+    pub fn normal_derivatives(&self, ray: &Ray, hit: &Hit) -> (Vec3<f32>, Vec3<f32>) {
+        match &self.bodies.bodies[hit.shape as usize] {
+            Body::Triangles(m) => m.normal_derivatives(hit),
+            Body::Patches(m) => m.normal_derivatives(hit),
+            Body::Quadric(Some(q)) => q.normal_derivatives(ray, hit),
+            Body::Quadric(None) => Default::default(),
+        }
+    }
+
     /// Box around everything that can be hit.
     pub fn bounds(&self) -> Aabb {
         self.bvh.bounds()

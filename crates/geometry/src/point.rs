@@ -22,10 +22,6 @@ pub struct SurfacePoint {
     pub dpdu: Vec3<f32>,
     /// Derivative of the point by the second texture coordinate.
     pub dpdv: Vec3<f32>,
-    /// Derivative of the shading normal by the first texture coordinate.
-    pub dndu: Vec3<f32>,
-    /// Derivative of the shading normal by the second texture coordinate.
-    pub dndv: Vec3<f32>,
     /// Texture coordinates.
     pub uv: [f32; 2],
     /// Shading tangent, perpendicular to `ns`, not of unit length: after `dpdu` or the mesh's own tangents.
@@ -60,8 +56,6 @@ impl SurfacePoint {
             ns: back,
             dpdu: zero,
             dpdv: zero,
-            dndu: zero,
-            dndv: zero,
             uv: [hit.u, hit.v],
             tangent: zero,
             shape: hit.shape,

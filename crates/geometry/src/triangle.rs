@@ -173,7 +173,6 @@ impl Triangles {
             let t = ns.cross(tangent);
             tangent = if t.length2() > 0.0 { t.cross(ns) } else { Frame::from_z(ns).x };
         }
-        let (dndu, dndv) = self.normal_derivatives(at, &map);
         SurfacePoint {
             p: mix(b, p),
             p_error: mix(b.map(f32::abs), p.map(Vec3::abs)) * gamma(7),
@@ -181,8 +180,6 @@ impl Triangles {
             ns,
             dpdu,
             dpdv,
-            dndu,
-            dndv,
             uv: map.at(b),
             tangent,
             shape: hit.shape,
@@ -191,11 +188,13 @@ impl Triangles {
     }
 
     /// Derivatives of the interpolated normal; its change of length is not taken out, as in pbrt-v4.
-    fn normal_derivatives(&self, at: [u32; 3], map: &Parametrisation) -> (Vec3<f32>, Vec3<f32>) {
+    pub(crate) fn normal_derivatives(&self, hit: &Hit) -> (Vec3<f32>, Vec3<f32>) {
         let zero = Vec3::splat(0.0);
         if self.mesh.n.is_empty() {
             return (zero, zero);
         }
+        let at = self.mesh.indices[hit.prim as usize];
+        let map = self.parametrisation(at);
         let n = pick(&self.mesh.n, at);
         if !map.is_degenerate() {
             return map.derivatives(n);

@@ -22,8 +22,6 @@ pub(super) struct Local {
     pub(super) uv: [f32; 2],
     pub(super) dpdu: Vec3<f64>,
     pub(super) dpdv: Vec3<f64>,
-    pub(super) dndu: Vec3<f64>,
-    pub(super) dndv: Vec3<f64>,
 }
 
 /// Azimuth from x towards y, in [0, 2 pi).
@@ -137,7 +135,6 @@ impl Form {
 
     /// What is known of a point on the surface, or near it: it is first moved onto it.
     pub(super) fn local(&self, p: Vec3<f64>) -> Local {
-        let zero = Vec3::splat(0.0);
         let around = |p: Vec3<f64>, phi_max: f64| (azimuth(p) / phi_max, vec3(-p.y, p.x, 0.0) * phi_max);
         match *self {
             Form::Sphere { r, theta, phi_max, .. } => {
@@ -150,7 +147,7 @@ impl Form {
                 let v = (Real::atan2(rho, p.z) - theta[0]) / range;
                 let dpdv = vec3(p.z * p.x / rho, p.z * p.y / rho, -rho) * range;
                 let uv = [u as f32, v as f32];
-                Local { p, n: p / p.length(), uv, dpdu, dpdv, dndu: dpdu / r, dndv: dpdv / r }
+                Local { p, n: p / p.length(), uv, dpdu, dpdv }
             }
             Form::Cylinder { r, z, phi_max } => {
                 let rho = (p.x * p.x + p.y * p.y).sqrt();
@@ -159,7 +156,7 @@ impl Form {
                 let (u, dpdu) = around(p, phi_max);
                 let range = z[1] - z[0];
                 let uv = [u as f32, ((p.z - z[0]) / range) as f32];
-                Local { p, n, uv, dpdu, dpdv: vec3(0.0, 0.0, range), dndu: dpdu / r, dndv: zero }
+                Local { p, n, uv, dpdu, dpdv: vec3(0.0, 0.0, range) }
             }
             Form::Disk { height, r, inner, phi_max } => {
                 let p = vec3(p.x, p.y, height);
@@ -169,8 +166,17 @@ impl Form {
                 let u = (azimuth(p) / phi_max) as f32;
                 let dpdu = vec3(-out.y, out.x, 0.0) * (phi_max * if rho > 0.0 { rho } else { 1e-5 * r });
                 let uv = [u, ((r - rho) / (r - inner)) as f32];
-                Local { p, n: vec3(0.0, 0.0, 1.0), uv, dpdu, dpdv: out * (inner - r), dndu: zero, dndv: zero }
+                Local { p, n: vec3(0.0, 0.0, 1.0), uv, dpdu, dpdv: out * (inner - r) }
             }
+        }
+    }
+
+    /// Derivatives of the object-space normal by the texture coordinates.
+    pub(super) fn normal_derivatives(&self, l: &Local) -> (Vec3<f64>, Vec3<f64>) {
+        match *self {
+            Form::Sphere { r, .. } => (l.dpdu / r, l.dpdv / r),
+            Form::Cylinder { r, .. } => (l.dpdu / r, Vec3::splat(0.0)),
+            Form::Disk { .. } => Default::default(),
         }
     }
 

@@ -121,15 +121,7 @@ impl Quadric {
     pub(crate) fn surface(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
         let l = self.local(ray, hit.t);
         let p = self.to_world.point(l.p);
-        let n = self.to_object.transposed(l.n);
-        let len = n.length();
-        let n = n / len;
-        // The normal of the image is not of unit length; its change of length is taken out.
-        let change = |d: Vec3<f64>| {
-            let d = self.to_object.transposed(d) / len;
-            (d - n * n.dot(d)).to_f32()
-        };
-        let ng = if self.flip { -n } else { n }.to_f32();
+        let ng = self.world_normal(l.n).to_f32();
         let dpdu = self.to_world.vector(l.dpdu).to_f32();
         SurfacePoint {
             p: p.to_f32(),
@@ -138,12 +130,24 @@ impl Quadric {
             ns: ng,
             dpdu,
             dpdv: self.to_world.vector(l.dpdv).to_f32(),
-            dndu: change(l.dndu),
-            dndv: change(l.dndv),
             uv: l.uv,
             tangent: dpdu,
             shape: hit.shape,
             prim: hit.prim,
         }
+    }
+    /// Derivatives of the normal by the texture coordinates.
+    pub(crate) fn normal_derivatives(&self, ray: &Ray, hit: &Hit) -> (Vec3<f32>, Vec3<f32>) {
+        let l = self.local(ray, hit.t);
+        let n = self.to_object.transposed(l.n);
+        let len = n.length();
+        let n = n / len;
+        // The normal of the image is not of unit length; its change of length is taken out.
+        let change = |d: Vec3<f64>| {
+            let d = self.to_object.transposed(d) / len;
+            (d - n * n.dot(d)).to_f32()
+        };
+        let (du, dv) = self.form.normal_derivatives(&l);
+        (change(du), change(dv))
     }
 }
