@@ -1,10 +1,12 @@
 //! Bilinear patches: corners, surface, and drawing points.
 
 mod bilinear;
+mod flat;
 mod sampling;
 mod surface;
 
 use bilinear::Bilinear;
+use flat::Flat;
 use sparrow_math::{Aabb, Vec3};
 
 use crate::bvh::RawHit;
@@ -16,10 +18,8 @@ use crate::shape::BilinearMesh;
 enum Kind {
     /// It cannot be hit.
     Dropped,
-    /// A parallelogram with right angles; intersected as two triangles.
-    Rectangle,
-    /// A parallelogram; intersected as two triangles.
-    Parallelogram,
+    /// A parallelogram, and its number among them; intersected as two triangles.
+    Flat(u32),
     /// Anything else.
     Curved,
 }
@@ -32,6 +32,7 @@ enum Kind {
 pub(crate) struct Patches {
     mesh: BilinearMesh,
     kinds: Vec<Kind>,
+    flats: Vec<Flat>,
     flip: bool,
 }
 
@@ -44,6 +45,7 @@ impl Patches {
         if mesh.uv.len() != mesh.p.len() {
             mesh.uv = Vec::new();
         }
+        let mut flats = Vec::new();
         let kind = |at: &[u32; 4]| {
             let mut p = [Vec3::splat(0.0); 4];
             for (p, &i) in p.iter_mut().zip(at) {
@@ -52,17 +54,24 @@ impl Patches {
                     None => return Kind::Dropped,
                 }
             }
-            classify(p)
+            if !is_usable(p) {
+                return Kind::Dropped;
+            }
+            if !is_flat(p) {
+                return Kind::Curved;
+            }
+            flats.push(Flat::new(p, flip));
+            Kind::Flat(flats.len() as u32 - 1)
         };
         let kinds = mesh.indices.iter().map(kind).collect();
-        Patches { mesh, kinds, flip }
+        Patches { mesh, kinds, flats, flip }
     }
     pub(crate) fn len(&self) -> usize {
         self.kinds.len()
     }
     pub(crate) fn bytes(&self) -> usize {
         let m = &self.mesh;
-        12 * (m.p.len() + m.n.len()) + 8 * m.uv.len() + 17 * m.indices.len()
+        12 * (m.p.len() + m.n.len()) + 8 * m.uv.len() + 24 * m.indices.len() + size_of_val(&*self.flats)
     }
     fn corners(&self, prim: u32) -> [Vec3<f32>; 4] {
         let [a, b, c, d] = self.mesh.indices[prim as usize];
@@ -78,7 +87,7 @@ impl Patches {
         match self.kinds[prim as usize] {
             Kind::Dropped => Vec::new(),
             Kind::Curved => vec![(2 * prim, around(&self.corners(prim)), true)],
-            Kind::Rectangle | Kind::Parallelogram => (2 * prim..=2 * prim + 1)
+            Kind::Flat(_) => (2 * prim..=2 * prim + 1)
                 .map(|id| (id, around(&self.triangle(id).map(Vec3::from)), false))
                 .collect(),
         }
@@ -94,8 +103,8 @@ impl Patches {
         let sum = (raw.u + raw.v).min(1.0);
         match self.kinds[(id / 2) as usize] {
             Kind::Curved | Kind::Dropped => [raw.u, raw.v],
-            Kind::Rectangle | Kind::Parallelogram if id.is_multiple_of(2) => [sum, raw.v.min(1.0)],
-            Kind::Rectangle | Kind::Parallelogram => [raw.u.min(1.0), sum],
+            Kind::Flat(_) if id.is_multiple_of(2) => [sum, raw.v.min(1.0)],
+            Kind::Flat(_) => [raw.u.min(1.0), sum],
         }
     }
     /// Offers the points of the ray on a curved patch; returns the last limit.
@@ -119,20 +128,16 @@ impl Patches {
     }
 }
 
-/// Looks at the corners of a patch.
-fn classify(p: [Vec3<f32>; 4]) -> Kind {
-    let patch = Bilinear::new(p);
-    let area = patch.area();
-    if !p.iter().all(|p| p.is_finite()) || !area.is_finite() || area <= 0.0 {
-        return Kind::Dropped;
-    }
+/// The patch has an area.
+fn is_usable(p: [Vec3<f32>; 4]) -> bool {
+    let area = Bilinear::new(p).area();
+    p.iter().all(|p| p.is_finite()) && area.is_finite() && area > 0.0
+}
+
+/// The patch is a parallelogram.
+fn is_flat(p: [Vec3<f32>; 4]) -> bool {
     let [a, b, c, d] = p.map(Vec3::to_f64);
     let largest = p.iter().map(|p| p.abs().max_component()).fold(0.0, f32::max);
     // The fourth corner may miss by rounding: then two triangles err by less than the bound of a point's error.
-    if (a + d - b - c).abs().max_component() > f64::from(4.0 * f32::EPSILON * largest) {
-        return Kind::Curved;
-    }
-    let (e, f) = (b - a, c - a);
-    let right = e.dot(f).abs() <= 1e-5 * e.length() * f.length();
-    if right { Kind::Rectangle } else { Kind::Parallelogram }
+    (a + d - b - c).abs().max_component() <= f64::from(4.0 * f32::EPSILON * largest)
 }

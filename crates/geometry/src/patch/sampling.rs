@@ -2,9 +2,11 @@
 
 use sparrow_math::Vec3;
 
+use super::flat::Flat;
+use super::surface::Place;
 use super::{Bilinear, Kind, Patches};
 use crate::point::ShapeSample;
-use crate::sample::{SphericalRectangle, seen_from};
+use crate::sample::{SphericalRectangle, direction, seen_from};
 
 /// Rectangles are drawn by area where they fill less of the sphere than this; value of pbrt-v4.
 const MIN_SOLID_ANGLE: f64 = 1e-4;
@@ -41,38 +43,50 @@ impl Patches {
     fn usable(&self, prim: u32) -> Option<Kind> {
         self.kinds.get(prim as usize).copied().filter(|k| *k != Kind::Dropped)
     }
-    pub(crate) fn area(&self, prim: u32) -> f32 {
-        self.usable(prim).map_or(0.0, |_| self.bilinear(prim).area() as f32)
+    /// The patch as a parallelogram, if it is one.
+    #[inline]
+    fn flat(&self, prim: u32) -> Option<&Flat> {
+        match self.kinds.get(prim as usize) {
+            Some(&Kind::Flat(i)) => self.flats.get(i as usize),
+            Some(Kind::Curved | Kind::Dropped) | None => None,
+        }
     }
-    fn sample_at(&self, prim: u32, [u, v]: [f64; 2], pdf: f64) -> ShapeSample {
-        let (u32, v32) = (u as f32, v as f32);
-        let p = self.corners(prim);
-        let patch = Bilinear::new(p);
+    pub(crate) fn area(&self, prim: u32) -> f32 {
+        let curved = || self.usable(prim).map_or(0.0, |_| self.bilinear(prim).area());
+        self.flat(prim).map_or_else(curved, |f| f.area) as f32
+    }
+    #[inline]
+    fn sample_at(&self, prim: u32, [u, v]: [f32; 2], pdf: f64) -> ShapeSample {
+        let Place { p, p_error, n, .. } = self.place(prim, u, v);
         ShapeSample {
-            p: patch.at(u, v).to_f32(),
-            p_error: Self::p_error(p),
-            n: self.oriented(patch.normal(u, v), self.shading_normal(prim, u32, v32)),
-            uv: self.uv(prim, u32, v32),
+            p,
+            p_error,
+            n: self.shading_normal(prim, u, v).map_or(n, |ns| n.facing(ns)),
+            uv: self.uv(prim, u, v),
             wi: Vec3::splat(0.0),
             distance: 0.0,
             pdf: pdf as f32,
         }
     }
     pub(crate) fn sample_area(&self, prim: u32, u: [f32; 2]) -> Option<ShapeSample> {
+        if let Some(flat) = self.flat(prim) {
+            return Some(self.sample_at(prim, u, 1.0 / flat.area));
+        }
         self.usable(prim)?;
         let patch = self.bilinear(prim);
         let density = Density::of(&patch);
         let [u, v] = density.sample(u);
         let pdf = density.pdf(u, v) / patch.stretch(u, v);
-        pdf.is_finite().then(|| self.sample_at(prim, [u, v], pdf))
+        pdf.is_finite().then(|| self.sample_at(prim, [u as f32, v as f32], pdf))
     }
+    #[inline]
     pub(crate) fn sample_from(&self, prim: u32, from: Vec3<f32>, u: [f32; 2]) -> Option<ShapeSample> {
-        let Some(r) = self.by_solid_angle(prim, from) else {
+        let Some((flat, r)) = self.flat(prim).and_then(|f| Some((f, by_solid_angle(f, from)?))) else {
             return seen_from(self.sample_area(prim, u)?, from);
         };
-        let s = self.sample_at(prim, r.sample(u), 0.0);
-        let pdf = (1.0 / r.solid_angle) as f32;
-        seen_from(s, from).map(|s| ShapeSample { pdf, ..s })
+        let s = self.sample_at(prim, flat.parameters(r.sample(u)), 1.0 / r.solid_angle);
+        let (wi, distance) = direction(from, s.p)?;
+        Some(ShapeSample { wi, distance, ..s })
     }
     /// Density per steradian of [`sample_from`](Self::sample_from) for a direction that met the patch at `hit_p`
     /// with normal `hit_n`; `per_area` turns densities per area into it.
@@ -84,31 +98,32 @@ impl Patches {
         hit_n: Vec3<f32>,
         per_area: impl Fn(f64) -> f32,
     ) -> f32 {
-        match self.usable(prim) {
-            None => 0.0,
-            Some(Kind::Curved) => {
-                let patch = self.bilinear(prim);
-                // The line through the point along the normal finds the parameters again.
-                let roots = patch.roots(hit_p.to_f64(), hit_n.to_f64()).into_iter().flatten();
-                let nearest = roots.min_by(|a, b| a.t.abs().total_cmp(&b.t.abs()));
-                nearest.map_or(0.0, |r| {
-                    let (u, v) = (r.u.clamp(0.0, 1.0), r.v.clamp(0.0, 1.0));
-                    per_area(Density::of(&patch).pdf(u, v) / patch.stretch(u, v))
-                })
-            }
-            Some(_) => match self.by_solid_angle(prim, from) {
+        if let Some(flat) = self.flat(prim) {
+            return match by_solid_angle(flat, from) {
                 Some(r) => (1.0 / r.solid_angle) as f32,
-                None => per_area(1.0 / self.bilinear(prim).area()),
-            },
+                None => per_area(1.0 / flat.area),
+            };
         }
-    }
-    /// The rectangle on the sphere around `from`, if it is to be drawn by solid angle.
-    fn by_solid_angle(&self, prim: u32, from: Vec3<f32>) -> Option<SphericalRectangle> {
-        if self.usable(prim)? != Kind::Rectangle {
-            return None;
+        if self.usable(prim).is_none() {
+            return 0.0;
         }
-        let [a, b, c, _] = self.corners(prim).map(Vec3::to_f64);
-        let r = SphericalRectangle::new(a, b - a, c - a, from.to_f64());
-        (r.solid_angle >= MIN_SOLID_ANGLE).then_some(r)
+        let patch = self.bilinear(prim);
+        // The line through the point along the normal finds the parameters again.
+        let roots = patch.roots(hit_p.to_f64(), hit_n.to_f64()).into_iter().flatten();
+        let nearest = roots.min_by(|a, b| a.t.abs().total_cmp(&b.t.abs()));
+        nearest.map_or(0.0, |r| {
+            let (u, v) = (r.u.clamp(0.0, 1.0), r.v.clamp(0.0, 1.0));
+            per_area(Density::of(&patch).pdf(u, v) / patch.stretch(u, v))
+        })
     }
+}
+
+/// The rectangle on the sphere around `from`, if it is to be drawn by solid angle.
+#[inline]
+fn by_solid_angle(flat: &Flat, from: Vec3<f32>) -> Option<SphericalRectangle> {
+    if !flat.is_rectangle {
+        return None;
+    }
+    let r = SphericalRectangle::new(&flat.edges, from.to_f64());
+    (r.solid_angle >= MIN_SOLID_ANGLE).then_some(r)
 }

@@ -2,8 +2,8 @@
 
 use sparrow_math::{Vec3, vec3};
 
+use super::flat::p_error;
 use super::{Bilinear, Kind, Patches};
-use crate::bvh::gamma;
 use crate::point::SurfacePoint;
 use crate::ray::Hit;
 
@@ -24,6 +24,17 @@ fn rotated(v: Vec3<f32>, a: Vec3<f32>, b: Vec3<f32>) -> Vec3<f32> {
     let axis = a.cross(b);
     let once = axis.cross(v);
     v + once + axis.cross(once) * (1.0 / (1.0 + a.dot(b)).max(1e-6))
+}
+
+/// A point of a patch without what the mesh says of shading and textures.
+pub(super) struct Place {
+    pub(super) p: Vec3<f32>,
+    pub(super) p_error: Vec3<f32>,
+    /// Unit normal, turned as the orientation says.
+    pub(super) n: Vec3<f32>,
+    /// Derivatives by the patch's own parameters.
+    pub(super) du: Vec3<f32>,
+    pub(super) dv: Vec3<f32>,
 }
 
 impl Patches {
@@ -57,15 +68,25 @@ impl Patches {
         let n = |i: u32| Vec3::from(self.mesh.n[i as usize]);
         [n(a), n(b), n(c), n(d)]
     }
-    /// A unit normal of the bilinear surface, turned to the side of the shading normal or as the orientation says.
-    pub(super) fn oriented(&self, n: Vec3<f64>, shading: Option<Vec3<f32>>) -> Vec3<f32> {
-        let n = n.to_f32();
-        let n = if self.flip { -n } else { n };
-        shading.map_or(n, |ns| n.facing(ns))
-    }
-    /// Bound of the rounding error of a point, which covers what a parallelogram is taken to be flat.
-    pub(super) fn p_error([a, b, c, d]: [Vec3<f32>; 4]) -> Vec3<f32> {
-        a.abs().max(b.abs()).max(c.abs().max(d.abs())) * gamma(6)
+    /// Where a patch is, at parameters of it.
+    #[inline]
+    pub(super) fn place(&self, prim: u32, u: f32, v: f32) -> Place {
+        if let Kind::Flat(i) = self.kinds[prim as usize] {
+            let f = &self.flats[i as usize];
+            let [du, dv] = f.derivatives();
+            return Place { p: f.at(u, v), p_error: f.p_error, n: f.n, du, dv };
+        }
+        let p = self.corners(prim);
+        let (du, dv) = lerp2_derivatives(p, u, v);
+        let patch = Bilinear::new(p);
+        let n = patch.normal(u.into(), v.into()).to_f32();
+        Place {
+            p: patch.at(u.into(), v.into()).to_f32(),
+            p_error: p_error(p),
+            n: if self.flip { -n } else { n },
+            du,
+            dv,
+        }
     }
 
     /// Derivatives of the patch's own parameters by the texture coordinates: `[[duds, dvds], [dudt, dvdt]]`.
@@ -80,8 +101,7 @@ impl Patches {
     /// The surface at a hit; meanings as in pbrt-v4.
     pub(crate) fn surface(&self, hit: &Hit) -> SurfacePoint {
         let (prim, u, v) = (hit.prim, hit.u, hit.v);
-        let p = self.corners(prim);
-        let (du, dv) = lerp2_derivatives(p, u, v);
+        let Place { p, p_error, n, du, dv } = self.place(prim, u, v);
         let (mut dpdu, mut dpdv) = (du, dv);
         if !self.mesh.uv.is_empty() {
             let [[duds, dvds], [dudt, dvdt]] = self.inverse_textures(prim, u, v);
@@ -93,7 +113,7 @@ impl Patches {
             }
         }
         let shading = self.shading_normal(prim, u, v);
-        let ng = self.oriented(Bilinear::new(p).normal(u.into(), v.into()), shading);
+        let ng = shading.map_or(n, |ns| n.facing(ns));
         let ns = shading.unwrap_or(ng);
         let mut tangent = dpdu;
         if shading.is_some() {
@@ -101,8 +121,8 @@ impl Patches {
             tangent = t - ns * ns.dot(t);
         }
         SurfacePoint {
-            p: lerp2(p, u, v),
-            p_error: Self::p_error(p),
+            p,
+            p_error,
             ng,
             ns,
             dpdu,
@@ -122,7 +142,7 @@ impl Patches {
         }
         let (du, dv) = match self.kinds[prim as usize] {
             Kind::Curved => self.bilinear(prim).normal_derivatives(u.into(), v.into()),
-            Kind::Rectangle | Kind::Parallelogram | Kind::Dropped => Default::default(),
+            Kind::Flat(_) | Kind::Dropped => Default::default(),
         };
         if self.mesh.uv.is_empty() {
             return (du, dv);

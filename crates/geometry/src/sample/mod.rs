@@ -3,7 +3,7 @@
 mod rectangle;
 mod triangle;
 
-pub(crate) use rectangle::SphericalRectangle;
+pub(crate) use rectangle::{Edges, SphericalRectangle};
 pub(crate) use triangle::SphericalTriangle;
 
 use sparrow_math::Vec3;
@@ -18,13 +18,18 @@ pub(crate) fn per_steradian(pdf: f64, from: Vec3<f32>, p: Vec3<f32>, n: Vec3<f32
     (len2 > 0.0 && pdf.is_finite()).then_some(pdf)
 }
 
+/// The unit direction and the distance from one point to another; `None` where they are the same.
+#[inline]
+pub(crate) fn direction(from: Vec3<f32>, to: Vec3<f32>) -> Option<(Vec3<f32>, f32)> {
+    let d = to.to_f64() - from.to_f64();
+    let distance = d.length();
+    let inv = 1.0 / distance;
+    (inv > 0.0 && inv.is_finite()).then(|| ((d * inv).to_f32(), distance as f32))
+}
+
 /// A sample drawn by area, as seen from a point; `None` where it is seen edge-on or lies at that point.
 pub(crate) fn seen_from(s: ShapeSample, from: Vec3<f32>) -> Option<ShapeSample> {
-    let d = s.p.to_f64() - from.to_f64();
-    let distance = d.length();
-    if !(distance > 0.0 && distance.is_finite()) {
-        return None;
-    }
+    let (wi, distance) = direction(from, s.p)?;
     let pdf = per_steradian(f64::from(s.pdf), from, s.p, s.n)?;
-    Some(ShapeSample { wi: (d / distance).to_f32(), distance: distance as f32, pdf, ..s })
+    Some(ShapeSample { wi, distance, pdf, ..s })
 }

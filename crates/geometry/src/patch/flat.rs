@@ -1,0 +1,63 @@
+//! Patches that are parallelograms: [`Flat`].
+
+use sparrow_math::Vec3;
+
+use super::Bilinear;
+use crate::bvh::gamma;
+use crate::sample::Edges;
+
+/// A parallelogram, with what its points have in common worked out once.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Flat {
+    pub(super) edges: Edges,
+    pub(super) area: f64,
+    /// Unit normal, turned as the orientation says.
+    pub(super) n: Vec3<f32>,
+    /// Bound of the rounding error of a point.
+    pub(super) p_error: Vec3<f32>,
+    /// Its angles are right ones.
+    pub(super) is_rectangle: bool,
+}
+
+/// Bound of the rounding error of a point, which covers what a parallelogram is taken to be flat.
+pub(super) fn p_error([a, b, c, d]: [Vec3<f32>; 4]) -> Vec3<f32> {
+    a.abs().max(b.abs()).max(c.abs().max(d.abs())) * gamma(6)
+}
+
+impl Flat {
+    /// The parallelogram closest to a patch whose fourth corner misses by rounding only.
+    pub(super) fn new(p: [Vec3<f32>; 4], flip: bool) -> Flat {
+        let [a, b, c, d] = p.map(Vec3::to_f64);
+        let (e, f) = ((b - a + (d - c)) * 0.5, (c - a + (d - b)) * 0.5);
+        // The miss is spread over all corners, a quarter each.
+        let corner = (a + b + c + d) * 0.25 - (e + f) * 0.5;
+        let edges = Edges::new(corner, e, f);
+        let n = Bilinear::new(p).normal(0.5, 0.5);
+        Flat {
+            edges,
+            area: edges.area(),
+            n: if flip { -n } else { n }.to_f32(),
+            p_error: p_error(p),
+            is_rectangle: e.dot(f).abs() <= 1e-5 * e.length() * f.length(),
+        }
+    }
+    /// The point at parameters of the patch.
+    #[inline(always)]
+    pub(super) fn at(&self, u: f32, v: f32) -> Vec3<f32> {
+        let [lx, ly] = self.edges.lengths;
+        self.edges.at([f64::from(u) * lx, f64::from(v) * ly]).to_f32()
+    }
+    /// The parameters of the point that lies so far along the edges.
+    #[inline(always)]
+    pub(super) fn parameters(&self, [x, y]: [f64; 2]) -> [f32; 2] {
+        let [lx, ly] = self.edges.lengths;
+        [x as f32 / lx as f32, y as f32 / ly as f32]
+    }
+    /// Derivatives of the point by the parameters.
+    #[inline(always)]
+    pub(super) fn derivatives(&self) -> [Vec3<f32>; 2] {
+        let [ax, ay] = self.edges.axes;
+        let [lx, ly] = self.edges.lengths;
+        [(ax * lx).to_f32(), (ay * ly).to_f32()]
+    }
+}
