@@ -130,12 +130,12 @@ impl Bodies {
     }
     /// What the world knows of a point the tree found.
     #[inline]
-    fn to_hit(&self, ray: &Ray, raw: &RawHit) -> Hit {
+    fn to_hit(&self, raw: &RawHit) -> Hit {
         let (shape, local) = self.locate(raw.id);
         let (prim, [u, v]) = match &self.bodies[shape as usize] {
             Body::Triangles(_) => (local, [raw.u, raw.v]),
             Body::Patches(m) => (local / 2, m.parameters(local, raw)),
-            Body::Quadric(q) => (0, q.as_ref().map_or([0.0; 2], |q| q.parameters(ray, raw.t))),
+            Body::Quadric(_) => (0, [0.0; 2]),
         };
         Hit { t: raw.t, shape, prim, u, v }
     }
@@ -188,7 +188,7 @@ impl Geometry {
     /// The nearest point of the ray on any shape.
     pub fn intersect(&self, ray: &Ray) -> Option<Hit> {
         let raw = self.bvh.hit::<false>(ray, &self.bodies, |_| true)?;
-        Some(self.bodies.to_hit(ray, &raw))
+        Some(self.bodies.to_hit(&raw))
     }
     /// Something lies on the ray.
     pub fn occluded(&self, ray: &Ray) -> bool {
@@ -196,13 +196,13 @@ impl Geometry {
     }
     /// The nearest point of the ray that `accept` does not reject.
     pub fn intersect_where(&self, ray: &Ray, accept: impl Fn(&Hit) -> bool) -> Option<Hit> {
-        let accept = |raw: &RawHit| accept(&self.bodies.to_hit(ray, raw));
+        let accept = |raw: &RawHit| accept(&self.bodies.to_hit(raw));
         let raw = self.bvh.hit::<false>(ray, &self.bodies, accept)?;
-        Some(self.bodies.to_hit(ray, &raw))
+        Some(self.bodies.to_hit(&raw))
     }
     /// Something that `accept` does not reject lies on the ray.
     pub fn occluded_where(&self, ray: &Ray, accept: impl Fn(&Hit) -> bool) -> bool {
-        let accept = |raw: &RawHit| accept(&self.bodies.to_hit(ray, raw));
+        let accept = |raw: &RawHit| accept(&self.bodies.to_hit(raw));
         self.bvh.hit::<true>(ray, &self.bodies, accept).is_some()
     }
     /// The surface at `hit`, which this geometry gave for `ray`.

@@ -35,8 +35,9 @@ pub struct Hit {
     pub shape: u32,
     /// Number of the primitive in its shape; 0 for quadrics.
     pub prim: u32,
-    /// Barycentric weight of the second corner; first parameter of a patch or quadric.
+    /// Barycentric weight of the second corner; first parameter of a patch; 0 for quadrics, whose texture
+    /// coordinates [`Geometry::surface`](crate::Geometry::surface) works out.
     pub u: f32,
-    /// Barycentric weight of the third corner; second parameter of a patch or quadric.
+    /// Barycentric weight of the third corner; second parameter of a patch; 0 for quadrics.
     pub v: f32,
 }

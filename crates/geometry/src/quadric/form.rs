@@ -15,6 +15,7 @@ pub(super) enum Form {
 }
 
 /// A point of the surface, in object space.
+#[derive(Clone, Copy)]
 pub(super) struct Local {
     pub(super) p: Vec3<f64>,
     /// Unit normal, `dpdu x dpdv`.
@@ -28,6 +29,14 @@ pub(super) struct Local {
 fn azimuth(p: Vec3<f64>) -> f64 {
     let phi = Real::atan2(p.y, p.x);
     if phi < 0.0 { phi + TAU } else { phi }
+}
+
+/// The same as a share of `phi_max`, in single precision.
+#[inline(always)]
+fn share_of_turn(p: Vec3<f64>, phi_max: f64) -> f32 {
+    let phi = Real::atan2(p.y as f32, p.x as f32);
+    let phi = if phi < 0.0 { phi + core::f32::consts::TAU } else { phi };
+    phi / phi_max as f32
 }
 
 /// The angle where a shape ends; whole turns are exact, so that no seam stays open.
@@ -133,21 +142,23 @@ impl Form {
         }
     }
 
-    /// What is known of a point on the surface, or near it: it is first moved onto it.
+    /// What is known of a point on the surface, or near it: it is first moved onto it, on a sphere from anywhere.
+    #[inline]
     pub(super) fn local(&self, p: Vec3<f64>) -> Local {
-        let around = |p: Vec3<f64>, phi_max: f64| (azimuth(p) / phi_max, vec3(-p.y, p.x, 0.0) * phi_max);
+        let around = |p: Vec3<f64>, phi_max: f64| (share_of_turn(p, phi_max), vec3(-p.y, p.x, 0.0) * phi_max);
         match *self {
             Form::Sphere { r, theta, phi_max, .. } => {
-                let p = p * (r / p.length());
+                let n = p.normalized();
+                let p = n * r;
                 // At a pole the azimuth is anyone's choice; this is pbrt-v4's.
-                let p = if p.x == 0.0 && p.y == 0.0 { vec3(1e-5 * r, 0.0, p.z) } else { p };
-                let (u, dpdu) = around(p, phi_max);
+                let near = if p.x == 0.0 && p.y == 0.0 { vec3(1e-5 * r, 0.0, p.z) } else { p };
+                let (u, dpdu) = around(near, phi_max);
                 let range = theta[1] - theta[0];
-                let rho = (p.x * p.x + p.y * p.y).sqrt();
-                let v = (Real::atan2(rho, p.z) - theta[0]) / range;
-                let dpdv = vec3(p.z * p.x / rho, p.z * p.y / rho, -rho) * range;
-                let uv = [u as f32, v as f32];
-                Local { p, n: p / p.length(), uv, dpdu, dpdv }
+                let rho = (near.x * near.x + near.y * near.y).sqrt();
+                let v = (Real::atan2(rho as f32, p.z as f32) - theta[0] as f32) / range as f32;
+                let slope = p.z / rho;
+                let dpdv = vec3(slope * near.x, slope * near.y, -rho) * range;
+                Local { p, n, uv: [u, v], dpdu, dpdv }
             }
             Form::Cylinder { r, z, phi_max } => {
                 let rho = (p.x * p.x + p.y * p.y).sqrt();
@@ -155,7 +166,7 @@ impl Form {
                 let p = vec3(n.x * r, n.y * r, p.z);
                 let (u, dpdu) = around(p, phi_max);
                 let range = z[1] - z[0];
-                let uv = [u as f32, ((p.z - z[0]) / range) as f32];
+                let uv = [u, ((p.z - z[0]) / range) as f32];
                 Local { p, n, uv, dpdu, dpdv: vec3(0.0, 0.0, range) }
             }
             Form::Disk { height, r, inner, phi_max } => {
@@ -163,7 +174,7 @@ impl Form {
                 let rho = (p.x * p.x + p.y * p.y).sqrt();
                 // In the middle the azimuth is anyone's choice.
                 let out = if rho > 0.0 { vec3(p.x / rho, p.y / rho, 0.0) } else { vec3(1.0, 0.0, 0.0) };
-                let u = (azimuth(p) / phi_max) as f32;
+                let u = share_of_turn(p, phi_max);
                 let dpdu = vec3(-out.y, out.x, 0.0) * (phi_max * if rho > 0.0 { rho } else { 1e-5 * r });
                 let uv = [u, ((r - rho) / (r - inner)) as f32];
                 Local { p, n: vec3(0.0, 0.0, 1.0), uv, dpdu, dpdv: out * (inner - r) }

@@ -1,12 +1,14 @@
 //! Spheres, disks and cylinders under affine maps: [`Quadric`].
 //!
-//! Worked in object space and in double precision; what leaves is rounded once.
+//! Worked in double precision and, but for whole spheres, in object space; points and normals are rounded once.
 
 mod affine;
+mod ball;
 mod form;
 mod sampling;
 
 use affine::Affine;
+use ball::Ball;
 use form::{Form, Local};
 use sparrow_math::{Aabb, Transform, Vec3, vec3};
 
@@ -24,8 +26,8 @@ pub(crate) struct Quadric {
     flip: bool,
     /// Volume scale of the map to world space.
     volume: f64,
-    /// Centre and radius in world space, if this is a whole sphere and stays one.
-    ball: Option<(Vec3<f64>, f64)>,
+    /// Set if this is a whole sphere and stays one.
+    ball: Option<Ball>,
     /// World-space area.
     area: f64,
 }
@@ -44,8 +46,10 @@ impl Quadric {
             ball: None,
             area: 0.0,
         };
-        q.ball =
-            q.form.whole_radius().and_then(|r| Some((to.point(Vec3::splat(0.0)), r * to.uniform_scale()?)));
+        q.ball = q
+            .form
+            .whole_radius()
+            .and_then(|r| Some(Ball { center: to.point(Vec3::splat(0.0)), radius: r * to.uniform_scale()? }));
         q.area = q.world_area();
         let b = q.bounds();
         (q.area > 0.0 && q.area.is_finite() && b.lo.is_finite() && b.hi.is_finite()).then_some(q)
@@ -78,9 +82,19 @@ impl Quadric {
     }
 
     /// Offers the points of the ray on the quadric, the nearer one first; returns the last limit.
+    #[inline]
     pub(crate) fn hit(&self, id: u32, ray: &Ray, t_max: f32, found: &mut impl FnMut(RawHit) -> f32) -> f32 {
-        let (o, d) = self.to_local(ray);
         let mut limit = t_max;
+        if let Some(ball) = &self.ball {
+            for t in ball.roots(ray).into_iter().flatten() {
+                let t = t as f32;
+                if t > 0.0 && t < limit {
+                    limit = found(RawHit { t, id, u: 0.0, v: 0.0 });
+                }
+            }
+            return limit;
+        }
+        let (o, d) = self.to_local(ray);
         for t in self.form.roots(o, d) {
             let t32 = t as f32;
             if t32 > 0.0 && t32 < limit && self.form.covers(o + d * t) {
@@ -91,6 +105,9 @@ impl Quadric {
     }
     /// The point of the quadric that the tree found at `t`.
     fn local(&self, ray: &Ray, t: f32) -> Local {
+        if let Some(ball) = &self.ball {
+            return self.form.local(self.to_object.vector(ball.outward(ray, t)));
+        }
         let (o, d) = self.to_local(ray);
         // The root itself, not its rounded value, which may lie far off the surface.
         let off = |x: f64| (x - f64::from(t)).abs();
@@ -101,9 +118,12 @@ impl Quadric {
             .fold(f64::NAN, |a, b| if off(b) < off(a) || a.is_nan() { b } else { a });
         self.form.local(o + d * nearest)
     }
-    /// Texture coordinates of the point that the tree found at `t`.
-    pub(crate) fn parameters(&self, ray: &Ray, t: f32) -> [f32; 2] {
-        self.local(ray, t).uv
+
+    /// The point of a ball in direction `out` from its centre: in object space, in the world, and its normal there.
+    #[inline]
+    fn on_ball(&self, ball: &Ball, out: Vec3<f64>) -> (Local, Vec3<f64>, Vec3<f64>) {
+        let l = self.form.local(self.to_object.vector(out));
+        (l, ball.center + out * ball.radius, if self.flip { -out } else { out })
     }
 
     /// Bound of the rounding error of a world-space point on the surface.
@@ -119,9 +139,14 @@ impl Quadric {
 
     /// The surface at a hit; meanings as in pbrt-v4.
     pub(crate) fn surface(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
-        let l = self.local(ray, hit.t);
-        let p = self.to_world.point(l.p);
-        let ng = self.world_normal(l.n).to_f32();
+        let (l, p, ng) = match &self.ball {
+            Some(ball) => self.on_ball(ball, ball.outward(ray, hit.t)),
+            None => {
+                let l = self.local(ray, hit.t);
+                (l, self.to_world.point(l.p), self.world_normal(l.n))
+            }
+        };
+        let ng = ng.to_f32();
         let dpdu = self.to_world.vector(l.dpdu).to_f32();
         SurfacePoint {
             p: p.to_f32(),

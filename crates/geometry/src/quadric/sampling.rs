@@ -4,7 +4,7 @@ use core::f64::consts::{FRAC_1_PI, TAU};
 
 use sparrow_math::{Frame, LocalDir, Vec3, warp};
 
-use super::Quadric;
+use super::{Ball, Quadric};
 use crate::point::ShapeSample;
 use crate::sample::seen_from;
 
@@ -64,9 +64,10 @@ impl Quadric {
 
     /// Whole balls: uniform in the cone they fill, or over all directions from inside. Others: by area.
     pub(crate) fn sample_from(&self, from: Vec3<f32>, u: [f32; 2]) -> Option<ShapeSample> {
-        let Some((center, radius)) = self.ball else {
+        let Some(ball) = &self.ball else {
             return seen_from(self.sample_area(u)?, from);
         };
+        let Ball { center, radius } = *ball;
         let (from, u) = (from.to_f64(), u.map(f64::from));
         let to_center = center - from;
         let distance = to_center.length();
@@ -83,12 +84,11 @@ impl Quadric {
         let half = (radius * radius - (to_center - wi * along).length2()).max(0.0).sqrt();
         let t = if cone.is_some() { along - half } else { along + half };
         let out = (wi * t - to_center).normalized();
-        let l = self.form.local(self.to_object.point(center + out * radius));
-        let p = self.to_world.point(l.p);
+        let (l, p, n) = self.on_ball(ball, out);
         (t > 0.0 && p.x.is_finite()).then(|| ShapeSample {
             p: p.to_f32(),
             p_error: Self::p_error(p),
-            n: self.world_normal(l.n).to_f32(),
+            n: n.to_f32(),
             uv: l.uv,
             wi: wi.to_f32(),
             distance: t as f32,
@@ -97,16 +97,16 @@ impl Quadric {
     }
     /// Density of the directions drawn to a ball whose centre is that far; `None` where it is too small a target.
     fn ball_pdf(&self, distance: f64) -> Option<f64> {
-        let (_, radius) = self.ball?;
+        let radius = self.ball.as_ref()?.radius;
         let pdf = one_minus_cos(radius, distance).map_or(UNIFORM_SPHERE, |c| 1.0 / (TAU * c));
         (pdf < f64::from(f32::MAX)).then_some(pdf)
     }
     /// Density per steradian of [`sample_from`](Self::sample_from) for a direction that met the surface with world
     /// normal `n`; `per_area` turns densities per area into it.
     pub(crate) fn pdf_from(&self, from: Vec3<f32>, n: Vec3<f32>, per_area: impl Fn(f64) -> f32) -> f32 {
-        match self.ball {
-            Some((center, _)) => {
-                let pdf = self.ball_pdf((center - from.to_f64()).length());
+        match &self.ball {
+            Some(ball) => {
+                let pdf = self.ball_pdf((ball.center - from.to_f64()).length());
                 pdf.map_or(0.0, |p| p as f32)
             }
             None => per_area(self.pdf_area(n.to_f64())),
