@@ -33,7 +33,7 @@ impl Inputs {
             for _ in 0..N {
                 let z = 0.05 + 0.95 * next();
                 let r = (1.0 - z * z).sqrt();
-                let (sin, cos) = Real::sin_cos(6.28 * next());
+                let (sin, cos) = Real::sin_cos(core::f32::consts::TAU * next());
                 let z = if next() < lower { -z } else { z };
                 for (column, v) in c.iter_mut().zip([r * cos, r * sin, z]) {
                     column.push(v);
@@ -46,7 +46,11 @@ impl Inputs {
         let table = kind.params();
         let reals = table.iter().filter(|p| p.kind == ParamKind::Real);
         let reals = reals.map(|p| if p.name.starts_with("alpha") { 0.2 } else { p.default as f32 }).collect();
-        let spectra = table.iter().filter(|p| p.kind != ParamKind::Real).map(|p| p.default as f32).collect();
+        let spectra = table
+            .iter()
+            .filter(|p| matches!(p.kind, ParamKind::Albedo | ParamKind::Unbounded))
+            .map(|p| p.default as f32)
+            .collect();
         Inputs { wo, wi, u, reals, spectra }
     }
     fn columns(&self) -> ParamColumns<'_> {

@@ -7,7 +7,7 @@
 use sparrow_math::{Lanes, LocalDir, Real, vec3};
 use sparrow_spectra::{N_LAMBDA, Spectrum};
 
-use crate::{Bsdf, MAX_REALS, MAX_SPECTRA, Model, ParamBlock, SurfaceKind, Uniforms};
+use crate::{Bsdf, MAX_CHOICES, MAX_REALS, MAX_SPECTRA, Model, ParamBlock, SurfaceKind, Uniforms};
 
 /// Directions, one column per component; all of one length.
 #[derive(Clone, Copy, Debug)]
@@ -27,6 +27,8 @@ pub struct ParamColumns<'a> {
     pub reals: [&'a [f32]; MAX_REALS],
     /// Values of the spectral parameters, per wavelength.
     pub spectra: [[&'a [f32]; N_LAMBDA]; MAX_SPECTRA],
+    /// Places of the `Choice` parameters, the same for all points.
+    pub choices: [u8; MAX_CHOICES],
 }
 
 /// Where values and densities go.
@@ -107,7 +109,7 @@ fn value<R: Real>(column: &[f32], i: usize) -> R {
 
 #[inline(always)]
 fn bind<R: Real, M: Model<R>>(p: &ParamColumns<'_>, i: usize) -> M {
-    let mut block = ParamBlock::default();
+    let mut block = ParamBlock { choices: p.choices, ..ParamBlock::default() };
     for (slot, column) in block.reals.iter_mut().zip(&p.reals) {
         *slot = value(column, i);
     }

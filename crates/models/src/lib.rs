@@ -42,6 +42,6 @@ mod registry;
 mod surface;
 
 pub use bsdf::{Bsdf, BsdfSample, Uniforms};
-pub use params::{MAX_REALS, MAX_SPECTRA, ParamBlock, ParamInfo, ParamKind};
-pub use registry::Model;
+pub use params::{MAX_CHOICES, MAX_REALS, MAX_SPECTRA, ParamBlock, ParamInfo, ParamKind};
+pub use registry::{About, Lack, Model};
 pub use surface::{Surface, SurfaceKind};

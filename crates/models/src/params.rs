@@ -12,6 +12,8 @@ pub enum ParamKind {
     Albedo,
     /// A spectrum without an upper bound, such as a refractive index; RGB values are upsampled with a scale.
     Unbounded,
+    /// One of several names; its place among them is what the model gets.
+    Choice(&'static [&'static str]),
 }
 
 /// One parameter of a model.
@@ -52,6 +54,11 @@ impl ParamInfo {
     pub const fn unbounded(name: &'static str) -> Self {
         Self::new(name, ParamKind::Unbounded, [0.0, f64::INFINITY])
     }
+    /// One of several names, the first unless [`default`](Self::default) gives the place of another.
+    pub const fn choice(name: &'static str, names: &'static [&'static str]) -> Self {
+        let p = Self::new(name, ParamKind::Choice(names), [0.0, (names.len() - 1) as f64]);
+        ParamInfo { default: 0.0, ..p }
+    }
     /// Sets the unit.
     pub const fn unit(mut self, unit: &'static str) -> Self {
         self.unit = unit;
@@ -84,20 +91,28 @@ impl ParamInfo {
 pub const MAX_REALS: usize = 8;
 /// Most spectra a model may take.
 pub const MAX_SPECTRA: usize = 4;
+/// Most choices a model may take.
+pub const MAX_CHOICES: usize = 4;
 
-/// The values of a model's parameters at one point and one set of wavelengths: numbers and spectra, each
-/// in the order in which the model's table lists them.
+/// The values of a model's parameters at one point and one set of wavelengths: numbers, spectra and choices, each
+/// in the order in which the model's table lists them. Choices are the same in all lanes.
 #[derive(Clone, Copy, Debug)]
 pub struct ParamBlock<R> {
     /// Values of the `Real` parameters.
     pub reals: [R; MAX_REALS],
     /// Values of the `Albedo` and `Unbounded` parameters.
     pub spectra: [Spectrum<R>; MAX_SPECTRA],
+    /// Places of the `Choice` parameters among their names.
+    pub choices: [u8; MAX_CHOICES],
 }
 
 impl<R: Real> Default for ParamBlock<R> {
     fn default() -> Self {
-        ParamBlock { reals: [R::ZERO; MAX_REALS], spectra: [Spectrum::ZERO; MAX_SPECTRA] }
+        ParamBlock {
+            reals: [R::ZERO; MAX_REALS],
+            spectra: [Spectrum::ZERO; MAX_SPECTRA],
+            choices: [0; MAX_CHOICES],
+        }
     }
 }
 
@@ -105,7 +120,7 @@ impl<R: Real> ParamBlock<R> {
     /// Every parameter of `table` at its default.
     pub fn defaults(table: &[ParamInfo]) -> Self {
         let mut block = Self::default();
-        let (mut r, mut s) = (0, 0);
+        let (mut r, mut s, mut c) = (0, 0, 0);
         for p in table {
             match p.kind {
                 ParamKind::Real => {
@@ -115,6 +130,10 @@ impl<R: Real> ParamBlock<R> {
                 ParamKind::Albedo | ParamKind::Unbounded => {
                     block.spectra[s] = Spectrum::splat(R::of(p.default));
                     s += 1;
+                }
+                ParamKind::Choice(_) => {
+                    block.choices[c] = p.default as u8;
+                    c += 1;
                 }
             }
         }

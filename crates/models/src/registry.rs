@@ -2,8 +2,56 @@
 
 use crate::{ParamBlock, ParamInfo};
 
+/// A property that reflection ought to have and a model lacks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Lack {
+    /// More light may leave than arrived.
+    Energy,
+    /// Viewer and light may not be exchanged.
+    Reciprocity,
+}
+
+/// What a model is, for lists, help and the verifier.
+#[derive(Clone, Copy, Debug)]
+pub struct About {
+    /// One line.
+    pub summary: &'static str,
+    /// Where it comes from, as keys of `docs/references.bib`.
+    pub sources: &'static str,
+    /// What it lacks, each with the reason; the verifier shows these as known and everything else as a fault.
+    pub lacks: &'static [(Lack, &'static str)],
+    /// The direction of the tangent matters.
+    pub anisotropic: bool,
+    /// Light passes to the other side.
+    pub transmits: bool,
+}
+
+impl About {
+    /// An opaque, isotropic model that lacks nothing.
+    pub const fn new(summary: &'static str, sources: &'static str) -> About {
+        About { summary, sources, lacks: &[], anisotropic: false, transmits: false }
+    }
+    /// The direction of the tangent matters.
+    pub const fn anisotropic(mut self) -> About {
+        self.anisotropic = true;
+        self
+    }
+    /// Light passes to the other side.
+    pub const fn transmits(mut self) -> About {
+        self.transmits = true;
+        self
+    }
+    /// Says what is missing, and why.
+    pub const fn lacks(mut self, lacks: &'static [(Lack, &'static str)]) -> About {
+        self.lacks = lacks;
+        self
+    }
+}
+
 /// What the registry asks of a model besides its contract.
 pub trait Model<R>: Sized {
+    /// What it is.
+    const ABOUT: About;
     /// The parameters, in the order in which [`ParamBlock`] holds them.
     const PARAMS: &'static [ParamInfo];
     /// Binds the parameters. Values lie in the ranges of the table.
@@ -56,6 +104,12 @@ macro_rules! models {
             pub fn params(self) -> &'static [$crate::ParamInfo] {
                 match self {
                     $( $Kind::$Variant => <$module::$Type<f32> as $crate::Model<f32>>::PARAMS, )*
+                }
+            }
+            /// What the model is and lacks.
+            pub fn about(self) -> $crate::About {
+                match self {
+                    $( $Kind::$Variant => <$module::$Type<f32> as $crate::Model<f32>>::ABOUT, )*
                 }
             }
             /// Binds the parameters, which lie in the ranges of the table.

@@ -41,7 +41,7 @@ fn batches_equal_single_calls_bit_for_bit() {
                 // A column where roughness varies, one number for all where it does not.
                 p.reals[r] = if info.name.starts_with("alpha") { &alpha } else { &[1.5] };
                 r += 1;
-            } else {
+            } else if !matches!(info.kind, ParamKind::Choice(_)) {
                 p.spectra[s] = [&spectrum[0], &spectrum[1], &spectrum[2], &spectrum[3]];
                 s += 1;
             }

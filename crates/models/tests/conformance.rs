@@ -1,7 +1,9 @@
 //! Every registered model, over random parameters of its own table: density, weights, energy, edges, lanes.
 
 use sparrow_math::{Lanes, LocalDir, Mask, Real, vec3};
-use sparrow_models::{Bsdf, MAX_REALS, MAX_SPECTRA, ParamBlock, ParamKind, Surface, SurfaceKind, Uniforms};
+use sparrow_models::{
+    Bsdf, MAX_CHOICES, MAX_REALS, MAX_SPECTRA, ParamBlock, ParamKind, Surface, SurfaceKind, Uniforms,
+};
 use sparrow_spectra::Spectrum;
 
 /// A small generator with a fixed seed. [Steele2014]
@@ -20,7 +22,7 @@ impl Random {
 /// Random parameters from the model's table; spectra without an upper bound stay below 8.
 fn random_params(kind: SurfaceKind, rng: &mut Random) -> ParamBlock<f64> {
     let mut block = ParamBlock::<f64>::defaults(kind.params());
-    let (mut r, mut s) = (0, 0);
+    let (mut r, mut s, mut c) = (0, 0, 0);
     for p in kind.params() {
         let draw = |rng: &mut Random, lo: f64, hi: f64| lo + (hi - lo) * rng.next();
         match p.kind {
@@ -42,6 +44,10 @@ fn random_params(kind: SurfaceKind, rng: &mut Random) -> ParamBlock<f64> {
             ParamKind::Unbounded => {
                 block.spectra[s] = Spectrum([(); 4].map(|()| 0.1 + 8.0 * rng.next()));
                 s += 1;
+            }
+            ParamKind::Choice(names) => {
+                block.choices[c] = ((rng.next() * names.len() as f64) as usize).min(names.len() - 1) as u8;
+                c += 1;
             }
         }
     }
@@ -78,8 +84,14 @@ fn tables_fit_the_parameter_block_and_names_are_unique() {
     names.dedup();
     assert_eq!(names.len(), SurfaceKind::ALL.len());
     for &kind in SurfaceKind::ALL {
-        let reals = kind.params().iter().filter(|p| p.kind == ParamKind::Real).count();
-        assert!(reals <= MAX_REALS && kind.params().len() - reals <= MAX_SPECTRA, "{}", kind.name());
+        let count = |of: fn(&ParamKind) -> bool| kind.params().iter().filter(|p| of(&p.kind)).count();
+        assert!(count(|k| matches!(k, ParamKind::Real)) <= MAX_REALS, "{}", kind.name());
+        assert!(count(|k| matches!(k, ParamKind::Choice(_))) <= MAX_CHOICES, "{}", kind.name());
+        assert!(
+            count(|k| matches!(k, ParamKind::Albedo | ParamKind::Unbounded)) <= MAX_SPECTRA,
+            "{}",
+            kind.name()
+        );
         assert_eq!(SurfaceKind::from_name(kind.name()), Some(kind));
         for p in kind.params() {
             assert!(p.range[0] <= p.default && p.default <= p.range[1] && !p.doc.is_empty(), "{}", p.name);
@@ -302,6 +314,7 @@ fn to_f32(p: &ParamBlock<f64>) -> ParamBlock<f32> {
     ParamBlock {
         reals: p.reals.map(|v| v as f32),
         spectra: p.spectra.map(|s| Spectrum(s.0.map(|v| v as f32))),
+        choices: p.choices,
     }
 }
 
@@ -311,7 +324,10 @@ fn eight_lanes_equal_eight_scalars_bit_for_bit() {
     for &kind in SurfaceKind::ALL {
         let mut rng = Random(99);
         for _ in 0..200 {
-            let ps: [ParamBlock<f32>; 8] = [(); 8].map(|()| to_f32(&random_params(kind, &mut rng)));
+            let mut ps: [ParamBlock<f32>; 8] = [(); 8].map(|()| to_f32(&random_params(kind, &mut rng)));
+            // Lanes differ in numbers, not in choices.
+            let choices = ps[0].choices;
+            ps.iter_mut().for_each(|p| p.choices = choices);
             let dirs = |rng: &mut Random| {
                 [(); 8].map(|()| {
                     let lower = rng.next() < 0.3;
@@ -322,7 +338,7 @@ fn eight_lanes_equal_eight_scalars_bit_for_bit() {
             let us: [Uniforms<f32>; 8] = [(); 8]
                 .map(|()| Uniforms { lobe: rng.next() as f32, dir: [rng.next() as f32, rng.next() as f32] });
             let gather = |f: &dyn Fn(usize) -> f32| -> L { Lanes([0, 1, 2, 3, 4, 5, 6, 7].map(f)) };
-            let mut block = ParamBlock::<L>::default();
+            let mut block = ParamBlock::<L> { choices, ..ParamBlock::default() };
             for k in 0..MAX_REALS {
                 block.reals[k] = gather(&|i| ps[i].reals[k]);
             }

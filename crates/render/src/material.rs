@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use sparrow_models::{MAX_REALS, MAX_SPECTRA, ParamBlock, ParamKind, Surface, SurfaceKind};
+use sparrow_models::{MAX_CHOICES, MAX_REALS, MAX_SPECTRA, ParamBlock, ParamKind, Surface, SurfaceKind};
 use sparrow_scene::{FloatTextureId, MaterialDesc, RealParam, SceneDesc, SpectrumParam, SpectrumTextureId};
 use sparrow_spectra::{DenseSpectrum, RgbRole, Wavelengths};
 
@@ -31,6 +31,7 @@ pub(crate) struct Material {
     kind: SurfaceKind,
     reals: Vec<RealSource>,
     spectra: Vec<SpectrumSource>,
+    choices: [u8; MAX_CHOICES],
     /// The index of refraction varies with wavelength: paths keep only their hero.
     pub(crate) dispersive: bool,
     /// Some parameter varies over the surface.
@@ -47,7 +48,8 @@ impl Material {
     ) -> Option<Material> {
         let kind = desc.model?;
         let reals: Vec<RealSource> = desc.reals.iter().map(|r| real_source(r, textures)).collect();
-        let spectral = kind.params().iter().filter(|p| p.kind != ParamKind::Real);
+        let is_spectral = |k: ParamKind| matches!(k, ParamKind::Albedo | ParamKind::Unbounded);
+        let spectral = kind.params().iter().filter(|p| is_spectral(p.kind));
         let spectra: Vec<SpectrumSource> = spectral
             .zip(&desc.spectra)
             .map(|(info, param)| spectrum_source(info.kind, param, scene, textures, faults))
@@ -60,13 +62,17 @@ impl Material {
             reals.len() <= MAX_REALS && spectra.len() <= MAX_SPECTRA,
             "tables are checked by a test"
         );
-        Some(Material { kind, reals, spectra, dispersive, textured })
+        let mut choices = [0; MAX_CHOICES];
+        for (slot, &place) in choices.iter_mut().zip(&desc.choices) {
+            *slot = place;
+        }
+        Some(Material { kind, reals, spectra, choices, dispersive, textured })
     }
 
     /// Evaluates the parameters at a point and binds them.
     #[inline]
     pub(crate) fn bind(&self, textures: &Textures, ctx: &TextureContext, w: &Wavelengths) -> Surface<f32> {
-        let mut block = ParamBlock::default();
+        let mut block = ParamBlock { choices: self.choices, ..ParamBlock::default() };
         for (slot, source) in block.reals.iter_mut().zip(&self.reals) {
             *slot = match source {
                 RealSource::Constant(v) => *v,

@@ -198,6 +198,8 @@ pub struct MaterialDesc {
     pub reals: Vec<RealParam>,
     /// One entry per spectral parameter of the model's table, in its order.
     pub spectra: Vec<SpectrumParam>,
+    /// One entry per `Choice` parameter of the model's table, in its order: the place among the names.
+    pub choices: Vec<u8>,
     /// Where the statement stands.
     pub at: Span,
 }

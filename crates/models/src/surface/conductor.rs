@@ -8,7 +8,7 @@
 use sparrow_math::{LocalDir, Real, Vec3, vec3};
 use sparrow_spectra::Spectrum;
 
-use crate::{Bsdf, BsdfSample, Model, ParamBlock, ParamInfo, Uniforms, fresnel, ggx::Ggx};
+use crate::{About, Bsdf, BsdfSample, Model, ParamBlock, ParamInfo, Uniforms, fresnel, ggx::Ggx};
 
 /// A rough or smooth conductor.
 #[derive(Clone, Copy, Debug)]
@@ -19,6 +19,11 @@ pub struct Conductor<R> {
 }
 
 impl<R: Real> Model<R> for Conductor<R> {
+    const ABOUT: About = About::new(
+        "rough or smooth metal: GGX facets, exact Fresnel",
+        "Walter2007, Heitz2014, DupuyBenyoub2023",
+    )
+    .anisotropic();
     const PARAMS: &'static [ParamInfo] = &[
         ParamInfo::real("alpha_x").default(0.0).soft(0.0, 0.7).doc("Slope width along the grain."),
         ParamInfo::real("alpha_y").default(0.0).soft(0.0, 0.7).doc("Slope width across the grain."),

@@ -10,7 +10,7 @@
 use sparrow_math::{LocalDir, Real, Vec3, vec3};
 use sparrow_spectra::Spectrum;
 
-use crate::{Bsdf, BsdfSample, Model, ParamBlock, ParamInfo, Uniforms, fresnel, ggx::Ggx};
+use crate::{About, Bsdf, BsdfSample, Model, ParamBlock, ParamInfo, Uniforms, fresnel, ggx::Ggx};
 
 /// A rough or smooth boundary between two dielectrics.
 #[derive(Clone, Copy, Debug)]
@@ -20,6 +20,10 @@ pub struct Dielectric<R> {
 }
 
 impl<R: Real> Model<R> for Dielectric<R> {
+    const ABOUT: About =
+        About::new("rough or smooth glass: GGX facets that reflect and refract", "Walter2007, Heitz2014")
+            .anisotropic()
+            .transmits();
     const PARAMS: &'static [ParamInfo] = &[
         ParamInfo::real("eta")
             .default(1.5)

@@ -7,7 +7,7 @@ use core::f64::consts::FRAC_1_PI;
 use sparrow_math::{LocalDir, Mask, Real, Vec3, warp};
 use sparrow_spectra::Spectrum;
 
-use crate::{Bsdf, BsdfSample, Model, ParamBlock, ParamInfo, Uniforms};
+use crate::{About, Bsdf, BsdfSample, Model, ParamBlock, ParamInfo, Uniforms};
 
 /// Lambert's law on both sides, with a reflectance and a transmittance.
 #[derive(Clone, Copy, Debug)]
@@ -17,6 +17,8 @@ pub struct DiffuseTransmission<R> {
 }
 
 impl<R: Real> Model<R> for DiffuseTransmission<R> {
+    const ABOUT: About =
+        About::new("diffuse reflection and transmission of a thin sheet", "Lambert1760").transmits();
     const PARAMS: &'static [ParamInfo] = &[
         ParamInfo::albedo("reflectance").default(0.25).doc("Share of the light that is reflected."),
         ParamInfo::albedo("transmittance").default(0.25).doc("Share of the light that passes through."),

@@ -5,7 +5,7 @@ use core::f64::consts::FRAC_1_PI;
 use sparrow_math::{LocalDir, Mask, Real, warp};
 use sparrow_spectra::Spectrum;
 
-use crate::{Bsdf, BsdfSample, Model, ParamBlock, ParamInfo, Uniforms};
+use crate::{About, Bsdf, BsdfSample, Model, ParamBlock, ParamInfo, Uniforms};
 
 /// Diffuse reflection on the side it is seen from.
 #[derive(Clone, Copy, Debug)]
@@ -14,6 +14,7 @@ pub struct Lambert<R> {
 }
 
 impl<R: Real> Model<R> for Lambert<R> {
+    const ABOUT: About = About::new("the same radiance in every direction", "Lambert1760");
     const PARAMS: &'static [ParamInfo] =
         &[ParamInfo::albedo("reflectance").default(0.5).doc("Share of the light that is reflected.")];
 

@@ -5,7 +5,7 @@
 use sparrow_math::{LocalDir, Mask, Real, Vec3};
 use sparrow_spectra::Spectrum;
 
-use crate::{Bsdf, BsdfSample, Model, ParamBlock, ParamInfo, Uniforms, fresnel};
+use crate::{About, Bsdf, BsdfSample, Model, ParamBlock, ParamInfo, Uniforms, fresnel};
 
 /// A pane so thin that the ray leaves where it entered.
 #[derive(Clone, Copy, Debug)]
@@ -14,6 +14,8 @@ pub struct ThinDielectric<R> {
 }
 
 impl<R: Real> Model<R> for ThinDielectric<R> {
+    const ABOUT: About =
+        About::new("a thin pane: reflection and straight transmission", "Hecht2002").transmits();
     const PARAMS: &'static [ParamInfo] = &[ParamInfo::real("eta")
         .default(1.5)
         .range(0.1, 10.0)

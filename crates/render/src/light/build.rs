@@ -75,7 +75,7 @@ impl LightBuild<'_> {
             }
             LightSamplerName::Power => LightSelection::fixed(&powers()),
             LightSamplerName::Bvh if parts.lights.len() <= WEIGH_ALL => {
-                LightSelection::weighed(parts.bounds.clone(), &usable)
+                LightSelection::weighed(&parts.bounds, &usable)
             }
             LightSamplerName::Bvh => {
                 notes.push(format!(

@@ -19,23 +19,43 @@ pub(super) struct LightBounds {
     pub(super) facing: Option<Vec3<f32>>,
 }
 
-impl LightBounds {
+/// A bounded light as the choice looks at it: the ball around it, and where it shines.
+#[derive(Clone, Copy, Debug)]
+struct Emitter {
+    light: u32,
+    power: f32,
+    center: Vec3<f32>,
+    radius: f32,
+    facing: Option<Vec3<f32>>,
+}
+
+impl Emitter {
+    fn new(light: u32, b: &LightBounds) -> Emitter {
+        Emitter {
+            light,
+            power: b.power,
+            center: b.bounds.center(),
+            radius: b.bounds.radius(),
+            facing: b.facing,
+        }
+    }
+
     /// About how much light it sends to a point. [ContyKulla2018, eq. 3], for a leaf with a flat emitter
     ///
     /// Not zero where light may arrive: a bound, not an estimate.
+    #[inline]
     fn importance(&self, at: &LitPoint) -> f32 {
-        let center = self.bounds.center();
-        let r = self.bounds.radius();
-        let to = center - at.p;
-        let d2 = to.length2();
-        // Within the bounds nothing is known of distance and angle.
-        let far2 = d2.max(r * r);
-        let sin2 = r * r / far2.max(1e-30);
-        if d2 <= r * r {
-            return self.power / far2.max(1e-30);
+        let to = self.center - at.p;
+        let (d2, r2) = (to.length2(), self.radius * self.radius);
+        // Within the ball nothing is known of distance and angle.
+        if d2 <= r2 {
+            return self.power / r2.max(1e-30);
         }
-        let d = to * (1.0 / d2.sqrt());
-        let (sin_b, cos_b) = (sin2.sqrt(), (1.0 - sin2).max(0.0).sqrt());
+        let inv = 1.0 / d2.sqrt();
+        let d = to * inv;
+        let sin_b = self.radius * inv;
+        let cos_b = (1.0 - sin_b * sin_b).max(0.0).sqrt();
+        // The largest cosine towards any point of the ball.
         let widen = |cos: f32| {
             if cos >= cos_b {
                 1.0
@@ -45,7 +65,7 @@ impl LightBounds {
         };
         let emits = self.facing.map_or(1.0, |n| widen(-n.dot(d)));
         let receives = widen(at.n.dot(d).abs());
-        self.power * emits * receives / far2
+        self.power * emits * receives * (inv * inv)
     }
 }
 
@@ -65,26 +85,30 @@ pub enum LightSelection {
 /// Lights for [`LightSelection::Weighed`].
 #[derive(Debug)]
 pub struct WeighedLights {
-    bounds: Vec<LightBounds>,
+    bounded: Vec<Emitter>,
     infinite: Vec<u32>,
-    bounded: Vec<u32>,
+    /// Where each light stands among the bounded ones.
+    place: Vec<u32>,
 }
 
 impl LightSelection {
-    pub(super) fn weighed(bounds: Vec<LightBounds>, usable: &[bool]) -> LightSelection {
-        let pick = |infinite: bool| -> Vec<u32> {
-            (0..bounds.len() as u32)
-                .filter(|&i| {
-                    let b = &bounds[i as usize];
-                    usable[i as usize] && b.power > 0.0 && b.bounds.is_empty() == infinite
-                })
-                .collect()
-        };
-        let (infinite, bounded) = (pick(true), pick(false));
+    pub(super) fn weighed(bounds: &[LightBounds], usable: &[bool]) -> LightSelection {
+        let (mut bounded, mut infinite) = (Vec::new(), Vec::new());
+        let mut place = vec![u32::MAX; bounds.len()];
+        for (i, b) in bounds.iter().enumerate().filter(|(i, b)| usable[*i] && b.power > 0.0) {
+            if b.bounds.is_empty() {
+                infinite.push(i as u32);
+            } else {
+                place[i] = bounded.len() as u32;
+                bounded.push(Emitter::new(i as u32, b));
+            }
+        }
+        // Choices keep their weights on the stack.
+        bounded.truncate(WEIGH_ALL);
         if infinite.is_empty() && bounded.is_empty() {
             return LightSelection::Empty;
         }
-        LightSelection::Weighed(WeighedLights { bounds, infinite, bounded })
+        LightSelection::Weighed(WeighedLights { bounded, infinite, place })
     }
 
     pub(super) fn fixed(weights: &[f32]) -> LightSelection {
@@ -132,16 +156,20 @@ impl WeighedLights {
             return Some((self.infinite[i], share));
         }
         let rest = 1.0 - n * share;
-        if let [only] = self.bounded[..] {
-            return Some((only, rest));
+        if let [only] = &self.bounded[..] {
+            return Some((only.light, rest));
         }
-        let total: f32 = self.bounded.iter().map(|&i| self.bounds[i as usize].importance(at)).sum();
+        let mut weights = [0.0; WEIGH_ALL];
+        let mut total = 0.0;
+        for (w, e) in weights.iter_mut().zip(&self.bounded) {
+            *w = e.importance(at);
+            total += *w;
+        }
         let mut left = (u - n * share) / rest * total;
         let mut last = None;
-        for &i in &self.bounded {
-            let w = self.bounds[i as usize].importance(at);
+        for (&w, e) in weights.iter().zip(&self.bounded) {
             if w > 0.0 {
-                last = Some((i, rest * w / total));
+                last = Some((e.light, rest * w / total));
                 if left < w {
                     break;
                 }
@@ -153,18 +181,63 @@ impl WeighedLights {
 
     fn probability(&self, at: &LitPoint, light: u32) -> f32 {
         let share = self.infinite_share();
-        if self.infinite.contains(&light) {
-            return share;
-        }
         let rest = 1.0 - self.infinite.len() as f32 * share;
-        if let [only] = self.bounded[..] {
-            return if only == light { rest } else { 0.0 };
+        let Some(own) = self.place.get(light as usize).and_then(|&p| self.bounded.get(p as usize)) else {
+            return if self.infinite.contains(&light) { share } else { 0.0 };
+        };
+        if self.bounded.len() == 1 {
+            return rest;
         }
-        let own = self.bounds[light as usize].importance(at);
+        let own = own.importance(at);
         if !(own > 0.0) {
             return 0.0;
         }
-        let total: f32 = self.bounded.iter().map(|&i| self.bounds[i as usize].importance(at)).sum();
+        let total: f32 = self.bounded.iter().map(|e| e.importance(at)).sum();
         rest * own / total
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use sparrow_math::vec3;
+
+    fn lights() -> LightSelection {
+        let at = |x: f32, power: f32, r: f32| LightBounds {
+            power,
+            bounds: Aabb::EMPTY.grow(vec3(x - r, -r, 3.0 - r)).grow(vec3(x + r, r, 3.0 + r)),
+            facing: (x > 0.0).then_some(vec3(0.0, 0.0, -1.0)),
+        };
+        let sky = LightBounds { power: 5.0, bounds: Aabb::EMPTY, facing: None };
+        LightSelection::weighed(&[at(-2.0, 1.0, 0.1), sky, at(1.0, 4.0, 0.5), at(9.0, 0.0, 1.0)], &[true; 4])
+    }
+
+    #[test]
+    fn choices_have_the_probability_that_is_told_and_sum_to_one() {
+        let s = lights();
+        for at in [
+            LitPoint { p: vec3(0.0, 0.0, 0.0), n: vec3(0.0, 0.0, 1.0) },
+            LitPoint { p: vec3(1.0, 0.1, 3.0), n: vec3(1.0, 0.0, 0.0) },
+            LitPoint { p: vec3(5.0, 0.0, 9.0), n: vec3(0.0, 0.6, 0.8) },
+        ] {
+            let sum: f32 = (0..4).map(|i| s.probability(&at, i)).sum();
+            assert!((sum - 1.0).abs() < 1e-6, "{sum}");
+            let n = 10_000;
+            let mut counts = [0.0f32; 4];
+            for i in 0..n {
+                let (light, p) = s.choose(&at, (i as f32 + 0.5) / n as f32).expect("there are lights");
+                assert!((p - s.probability(&at, light)).abs() < 1e-6);
+                counts[light as usize] += 1.0 / n as f32;
+            }
+            for (i, c) in counts.iter().enumerate() {
+                assert!((c - s.probability(&at, i as u32)).abs() < 2e-3, "{i}: {counts:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_one_sided_light_seen_from_behind_is_not_chosen() {
+        let behind = LitPoint { p: vec3(1.0, 0.0, 30.0), n: vec3(0.0, 0.0, 1.0) };
+        assert_eq!(lights().probability(&behind, 2), 0.0);
     }
 }

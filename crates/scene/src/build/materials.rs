@@ -33,15 +33,17 @@ pub(super) struct PendingMaterial {
 }
 
 /// A model and where its parameters come from, by name; what is missing takes the table's default.
+#[derive(Default)]
 struct Parts {
     model: Option<SurfaceKind>,
     reals: Vec<(&'static str, RealParam)>,
     spectra: Vec<(&'static str, SpectrumParam)>,
+    choices: Vec<(&'static str, u8)>,
 }
 
 impl Parts {
     fn surface(model: SurfaceKind) -> Self {
-        Parts { model: Some(model), reals: Vec::new(), spectra: Vec::new() }
+        Parts { model: Some(model), ..Parts::default() }
     }
     fn real(mut self, name: &'static str, from: RealParam) -> Self {
         self.reals.push((name, from));
@@ -115,7 +117,7 @@ impl Builder {
                 let eta = self.index_of_refraction(p);
                 Parts::surface(SurfaceKind::ThinDielectric).real("eta", eta)
             }
-            "interface" | "none" | "" => Parts { model: None, reals: Vec::new(), spectra: Vec::new() },
+            "interface" | "none" | "" => Parts::default(),
             "mix" => self.mix(p, made),
             _ => self.diffuse_grey(),
         }
@@ -238,11 +240,14 @@ impl Builder {
         }
         let Some(desc) = first else { return self.diffuse_grey() };
         let Some(model) = desc.model else { return self.diffuse_grey() };
-        let (reals, spectra) = (names_of(model, true), names_of(model, false));
+        let reals = names_of(model, |k| matches!(k, ParamKind::Real));
+        let spectra = names_of(model, |k| matches!(k, ParamKind::Albedo | ParamKind::Unbounded));
+        let choices = names_of(model, |k| matches!(k, ParamKind::Choice(_)));
         Parts {
             model: Some(model),
             reals: reals.zip(desc.reals.iter().cloned()).collect(),
             spectra: spectra.zip(desc.spectra.iter().cloned()).collect(),
+            choices: choices.zip(desc.choices.iter().copied()).collect(),
         }
     }
 
@@ -264,6 +269,13 @@ impl Builder {
                     if let Some(t) = self.spectrum_param_given(&params, info.name, role) {
                         self.check_constant(kind, info, t.0 as usize, &params);
                         parts = parts.spectrum(info.name, SpectrumParam::Texture(t));
+                    }
+                }
+                ParamKind::Choice(names) => {
+                    let places: Vec<(&'static str, u8)> = names.iter().copied().zip(0..).collect();
+                    let default = names.get(info.default as usize).copied().unwrap_or_default();
+                    if let Some(place) = self.choice(&params, info.name, &places, default) {
+                        parts.choices.push((info.name, place));
                     }
                 }
             }
@@ -322,7 +334,7 @@ impl Builder {
 
     /// Puts the parts in the order of the model's table.
     fn material_desc(&mut self, parts: Parts, name: Option<&str>, type_name: &str, at: Span) -> MaterialDesc {
-        let (mut reals, mut spectra) = (Vec::new(), Vec::new());
+        let (mut reals, mut spectra, mut choices) = (Vec::new(), Vec::new(), Vec::new());
         for info in parts.model.map_or(&[][..], SurfaceKind::params) {
             match info.kind {
                 ParamKind::Real => {
@@ -337,16 +349,20 @@ impl Builder {
                         given.unwrap_or_else(|| SpectrumParam::Texture(self.made.grey(info.default as f32))),
                     );
                 }
+                ParamKind::Choice(_) => {
+                    let given = parts.choices.iter().find(|(n, _)| *n == info.name);
+                    choices.push(given.map_or(info.default as u8, |g| g.1));
+                }
             }
         }
         let (name, type_name) = (name.map(String::from), type_name.to_string());
-        MaterialDesc { name, type_name, model: parts.model, reals, spectra, at }
+        MaterialDesc { name, type_name, model: parts.model, reals, spectra, choices, at }
     }
 }
 
-/// Names of a model's numbers (`real`) or spectra, in the table's order.
-fn names_of(model: SurfaceKind, real: bool) -> impl Iterator<Item = &'static str> {
-    model.params().iter().filter(move |i| (i.kind == ParamKind::Real) == real).map(|i| i.name)
+/// Names of a model's parameters of some kind, in the table's order.
+fn names_of(model: SurfaceKind, of: fn(ParamKind) -> bool) -> impl Iterator<Item = &'static str> {
+    model.params().iter().filter(move |i| of(i.kind)).map(|i| i.name)
 }
 
 /// What a parameter of a model's own table takes in a scene.
@@ -356,6 +372,7 @@ fn row_of(info: &ParamInfo) -> Row {
         ParamKind::Real if info.name.starts_with("eta") => Kind::FloatTextureOrSpectrum,
         ParamKind::Real => Kind::FloatTexture,
         ParamKind::Albedo | ParamKind::Unbounded => Kind::SpectrumTexture,
+        ParamKind::Choice(_) => Kind::Text,
     };
     Row { name: info.name, kind, used: Use::Yes }
 }
