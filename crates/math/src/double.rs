@@ -4,12 +4,21 @@
 //! Errors below 2 units in the last place on the domains given at each function.
 
 use crate::elementary::poly;
-use core::f64::consts::{FRAC_PI_2, FRAC_PI_4, LOG2_E, PI};
+use core::f64::consts::{FRAC_2_PI, FRAC_PI_2, FRAC_PI_4, LOG2_E, PI};
+
+/// Adding this to a number below 2^51 and taking it away again rounds to a whole number, halves to even (1.5 * 2^52).
+/// The operation itself is a call of the C library on machines before SSE 4.1.
+const ROUNDER: f64 = 6_755_399_441_055_744.0;
+
+#[inline(always)]
+fn round(x: f64) -> f64 {
+    (x + ROUNDER) - ROUNDER
+}
 
 /// `e^x`, the argument clamped to [-708, 709].
 pub fn exp(x: f64) -> f64 {
     let x = x.clamp(-708.0, 709.0);
-    let n = (x * LOG2_E).round_ties_even();
+    let n = round(x * LOG2_E);
     let r = x - n * 6.931_457_519_531_25e-1;
     let r = r - n * 1.428_606_820_309_417_2e-6;
     let z = r * r;
@@ -17,7 +26,7 @@ pub fn exp(x: f64) -> f64 {
     let q = poly(z, [3.001_985_051_386_644_6e-6, 2.524_483_403_496_841e-3, 2.272_655_482_081_550_3e-1, 2.0]);
     let y = 1.0 + 2.0 * p / (q - p);
     // In two factors: 2^n alone overflows at n = 1024.
-    let half = (n * 0.5).round_ties_even();
+    let half = round(n * 0.5);
     y * pow2(half) * pow2(n - half)
 }
 
@@ -55,8 +64,9 @@ pub fn ln(x: f64) -> f64 {
 }
 
 /// Sine and cosine, `|x| < 1e6`.
+#[inline]
 pub fn sin_cos(x: f64) -> (f64, f64) {
-    let n = (x / FRAC_PI_2).round_ties_even();
+    let n = round(x * FRAC_2_PI);
     // pi/2 in three parts, the first two with 30 trailing zero bits each.
     let r = x - n * (2.0 * 7.853_981_256_484_985e-1);
     let r = r - n * (2.0 * 3.774_894_707_930_798e-8);
@@ -88,15 +98,15 @@ pub fn sin_cos(x: f64) -> (f64, f64) {
                     4.166_666_666_666_659e-2,
                 ],
             );
-    match (n as i64).rem_euclid(4) {
-        0 => (s, c),
-        1 => (c, -s),
-        2 => (-s, -c),
-        _ => (-c, s),
-    }
+    // Quadrants follow in no order, so there are no branches: odd ones swap, the sign bits come from bit 1.
+    let q = n as i64;
+    let (a, b) = if q & 1 == 0 { (s, c) } else { (c, s) };
+    let with_sign = |x: f64, q: i64| f64::from_bits(x.to_bits() ^ ((q as u64 & 2) << 62));
+    (with_sign(a, q), with_sign(b, q + 1))
 }
 
 /// Angle of the point (`x`, `y`) in (-pi, pi]; 0 at the origin.
+#[inline]
 pub fn atan2(y: f64, x: f64) -> f64 {
     let (a, b) = (y.abs(), x.abs());
     let (num, den) = if a > b { (b, a) } else { (a, b) };
@@ -104,12 +114,9 @@ pub fn atan2(y: f64, x: f64) -> f64 {
         return 0.0_f64.copysign(y);
     }
     // tan(pi/8): beyond it the angle is measured from pi/4.
-    let t = num / den;
-    let mut r = if t > 0.414_213_562_373_095_03 {
-        FRAC_PI_4 + atan_small((num - den) / (num + den))
-    } else {
-        atan_small(t)
-    };
+    let far = num > 0.414_213_562_373_095_03 * den;
+    let (start, num, den) = if far { (FRAC_PI_4, num - den, num + den) } else { (0.0, num, den) };
+    let mut r = start + atan_small(num / den);
     if a > b {
         r = FRAC_PI_2 - r;
     }
@@ -120,6 +127,7 @@ pub fn atan2(y: f64, x: f64) -> f64 {
 }
 
 /// Arc tangent for `|t| <= tan(pi/8)`.
+#[inline(always)]
 fn atan_small(t: f64) -> f64 {
     let z = t * t;
     t - t
