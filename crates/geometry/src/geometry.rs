@@ -186,11 +186,13 @@ impl Geometry {
     }
 
     /// The nearest point of the ray on any shape.
+    #[inline]
     pub fn intersect(&self, ray: &Ray) -> Option<Hit> {
         let raw = self.bvh.hit::<false>(ray, &self.bodies, |_| true)?;
         Some(self.bodies.to_hit(&raw))
     }
     /// Something lies on the ray.
+    #[inline]
     pub fn occluded(&self, ray: &Ray) -> bool {
         self.bvh.hit::<true>(ray, &self.bodies, |_| true).is_some()
     }
@@ -208,6 +210,7 @@ impl Geometry {
     /// The surface at `hit`, which this geometry gave for `ray`.
     ///
     /// Panics for a hit of another geometry, or returns nonsense.
+    #[inline]
     pub fn surface(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
         match &self.bodies.bodies[hit.shape as usize] {
             Body::Triangles(m) => m.surface(hit),
@@ -248,6 +251,7 @@ impl Geometry {
         self.bodies.bodies.get(shape).map_or(0, Body::n_prims)
     }
 
+    #[inline]
     fn body(&self, shape: u32) -> Option<&Body> {
         self.bodies.bodies.get(shape as usize)
     }
@@ -266,6 +270,7 @@ impl Geometry {
     /// Draws a point of a primitive, with a density over the directions in which it is seen from `from`: uniform for
     /// triangles, rectangles and whole spheres of sensible size, else uniform over the surface. `None` where such a
     /// density does not exist: seen edge-on, or dropped.
+    #[inline]
     pub fn sample_from(&self, shape: u32, prim: u32, from: Vec3<f32>, u: [f32; 2]) -> Option<ShapeSample> {
         match self.body(shape)? {
             Body::Triangles(m) => m.sample_from(prim, from, u),
@@ -275,6 +280,7 @@ impl Geometry {
     }
     /// Density per steradian with which [`sample_from`](Self::sample_from) draws the direction `wi`, which met the
     /// primitive at `hit_p` with geometric normal `hit_n`.
+    #[inline]
     pub fn pdf_from(
         &self,
         shape: u32,
