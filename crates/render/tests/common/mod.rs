@@ -1,6 +1,11 @@
 //! A picture from a scene given as text.
 
-#![allow(dead_code, unreachable_pub, reason = "each test file uses its part")]
+#![allow(
+    dead_code,
+    unreachable_pub,
+    clippy::panic,
+    reason = "each test file uses its part; a test panics when it fails"
+)]
 
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
