@@ -15,6 +15,13 @@ fn round(x: f64) -> f64 {
     (x + ROUNDER) - ROUNDER
 }
 
+/// A polynomial of degree 5, coefficients from the highest power down, in pairs: shorter chains than Horner's rule.
+#[inline(always)]
+fn poly6(z: f64, [a, b, c, d, e, f]: [f64; 6]) -> f64 {
+    let z2 = z * z;
+    ((a * z + b) * z2 + (c * z + d)) * z2 + (e * z + f)
+}
+
 /// `e^x`, the argument clamped to [-708, 709].
 pub fn exp(x: f64) -> f64 {
     let x = x.clamp(-708.0, 709.0);
@@ -74,7 +81,7 @@ pub fn sin_cos(x: f64) -> (f64, f64) {
     let z = r * r;
     let s = r + r
         * z
-        * poly(
+        * poly6(
             z,
             [
                 1.589_623_015_765_465_7e-10,
@@ -87,7 +94,7 @@ pub fn sin_cos(x: f64) -> (f64, f64) {
         );
     let c = 1.0 - 0.5 * z
         + z * z
-            * poly(
+            * poly6(
                 z,
                 [
                     -1.135_853_652_138_768_2e-11,
@@ -130,24 +137,25 @@ pub fn atan2(y: f64, x: f64) -> f64 {
 #[inline(always)]
 fn atan_small(t: f64) -> f64 {
     let z = t * t;
-    t - t
-        * z
-        * poly(
-            z,
-            [
-                1.628_582_011_536_578_2e-2,
-                -3.653_157_274_421_691_6e-2,
-                4.976_877_994_615_932e-2,
-                -5.833_570_133_790_573_5e-2,
-                6.661_073_137_387_531e-2,
-                -7.691_876_205_044_83e-2,
-                9.090_887_133_436_507e-2,
-                -1.111_111_040_546_235_6e-1,
-                1.428_571_427_250_346_6e-1,
-                -1.999_999_999_987_648_3e-1,
-                3.333_333_333_333_293e-1,
-            ],
-        )
+    let high = [
+        1.628_582_011_536_578_2e-2,
+        -3.653_157_274_421_691_6e-2,
+        4.976_877_994_615_932e-2,
+        -5.833_570_133_790_573_5e-2,
+        6.661_073_137_387_531e-2,
+    ];
+    let low = [
+        -7.691_876_205_044_83e-2,
+        9.090_887_133_436_507e-2,
+        -1.111_111_040_546_235_6e-1,
+        1.428_571_427_250_346_6e-1,
+        -1.999_999_999_987_648_3e-1,
+        3.333_333_333_333_293e-1,
+    ];
+    let [a, b, c, d, e] = high;
+    let z2 = z * z;
+    let high = (a * z2 + (b * z + c)) * z2 + (d * z + e);
+    t - t * z * (high * (z2 * z2 * z2) + poly6(z, low))
 }
 
 /// `e^-x I_0(x)` for `x >= 0`: power series below 30, asymptotic series above. [AbramowitzStegun, 9.6.12, 9.7.1]
