@@ -75,7 +75,7 @@ impl TriBlock {
         while mask != 0 {
             let i = mask.trailing_zeros() as usize & 3;
             mask &= mask - 1;
-            let one = |p: [F4; 3]| p.map(|x| x.to_array()[i]);
+            let one = |[x, y, z]: [F4; 3]| [x.to_array()[i], y.to_array()[i], z.to_array()[i]];
             let s = Sheared { p: [one(a), one(b), one(c)], e: one([u, v, w]), t: t.to_array()[i] };
             let Some((t, b1, b2)) = s.settle(|| self.exact_t(ray, i), r.sz) else { continue };
             if t < t_max {

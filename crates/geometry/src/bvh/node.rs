@@ -115,13 +115,15 @@ impl RayData {
         let sz = 1.0 / d[kz];
         // A finite stand-in for 1/0: infinity times a distance of zero is not a number.
         let inv = |d: f32| if d.abs() < 1e-30 { 1e30_f32.copysign(d) } else { 1.0 / d };
-        let inv = [inv(d.x), inv(d.y), inv(d.z)];
+        let [x, y, z] = [inv(d.x), inv(d.y), inv(d.z)];
         const PAD: f32 = 8.0 * f32::EPSILON;
+        let scaled = |s: f32| [F4::splat(x * s), F4::splat(y * s), F4::splat(z * s)];
+        let (near, far) = (scaled(1.0 - PAD), scaled(1.0 + PAD));
         RayData {
             o: [F4::splat(ray.o.x), F4::splat(ray.o.y), F4::splat(ray.o.z)],
-            neg: inv.map(|v| usize::from(v < 0.0)),
-            inv_near: inv.map(|v| F4::splat(v * (1.0 - PAD))),
-            inv_far: inv.map(|v| F4::splat(v * (1.0 + PAD))),
+            neg: [usize::from(x < 0.0), usize::from(y < 0.0), usize::from(z < 0.0)],
+            inv_near: near,
+            inv_far: far,
             k: [kx, ky, kz],
             o_k: [F4::splat(ray.o[kx]), F4::splat(ray.o[ky]), F4::splat(ray.o[kz])],
             s: [F4::splat(d[kx] * sz), F4::splat(d[ky] * sz), F4::splat(sz)],
