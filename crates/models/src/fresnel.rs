@@ -22,6 +22,13 @@ pub fn dielectric<R: Real>(cos_i: R, eta: R) -> (R, R) {
 /// `cos_i` in [0, 1]. [BornWolf, sec. 14.2], arranged to need no complex square root.
 #[inline(always)]
 pub fn conductor<R: Real>(cos_i: R, eta: R, k: R) -> R {
+    let (r_s, r_p) = conductor_polarized(cos_i, eta, k);
+    (r_s + r_p) * R::of(0.5)
+}
+
+/// The two reflectances of [`conductor`]: electric field across the plane of incidence (s), and within it (p).
+#[inline(always)]
+pub fn conductor_polarized<R: Real>(cos_i: R, eta: R, k: R) -> (R, R) {
     let c2 = cos_i * cos_i;
     let s2 = R::ONE - c2;
     let t0 = eta * eta - k * k - s2;
@@ -32,9 +39,83 @@ pub fn conductor<R: Real>(cos_i: R, eta: R, k: R) -> R {
     let r_s = (t1 - t2) / (t1 + t2);
     let t3 = c2 * ab + s2 * s2;
     let t4 = t2 * s2;
-    let r_p = r_s * (t3 - t4) / (t3 + t4);
-    (r_s + r_p) * R::of(0.5)
+    (r_s, r_s * (t3 - t4) / (t3 + t4))
 }
+
+/// `x^5`
+#[inline(always)]
+fn fifth<R: Real>(x: R) -> R {
+    let x2 = x * x;
+    x2 * x2 * x
+}
+
+/// Schlick's approximation from the reflectance `f0` at normal incidence. [Schlick1994, eq. 15]
+#[inline(always)]
+pub fn schlick<R: Real>(cos_i: R, f0: R) -> R {
+    f0 + (R::ONE - f0) * fifth(R::ONE - cos_i)
+}
+
+/// The mean of [`schlick`] over the hemisphere, weighted with the cosine.
+#[inline(always)]
+pub fn schlick_average<R: Real>(f0: R) -> R {
+    f0 + (R::ONE - f0) * R::of(1.0 / 21.0)
+}
+
+/// How far [`f82_tint`] lies below Schlick, without its factor `cos (1 - cos)^6`.
+#[inline(always)]
+fn f82_dip<R: Real>(f0: R, tint: R) -> R {
+    // (1/7) (6/7)^6
+    schlick(R::of(1.0 / 7.0), f0) * (R::ONE - tint) / R::of(46_656.0 / 823_543.0)
+}
+
+/// Schlick's approximation lowered to `tint` times itself at 81.8 degrees, where cos = 1/7; not below zero.
+/// [KutzHasanEdmondson2021]
+#[inline(always)]
+pub fn f82_tint<R: Real>(cos_i: R, f0: R, tint: R) -> R {
+    let x = R::ONE - cos_i;
+    (schlick(cos_i, f0) - f82_dip(f0, tint) * cos_i * (fifth(x) * x)).max(R::ZERO)
+}
+
+/// The mean of [`f82_tint`] over the hemisphere, weighted with the cosine.
+#[inline(always)]
+pub fn f82_average<R: Real>(f0: R, tint: R) -> R {
+    schlick_average(f0) - f82_dip(f0, tint) * R::of(1.0 / 126.0)
+}
+
+/// Schlick's approximation with the absorption of a metal, base term without the fitted correction.
+/// [LazanyiSzirmayKalos2005, eq. 4]
+#[inline(always)]
+pub fn lazanyi<R: Real>(cos_i: R, eta: R, k: R) -> R {
+    let k2 = k * k;
+    let x5 = fifth(R::ONE - cos_i);
+    ((eta - R::ONE).sqr() + R::of(4.0) * eta * x5 + k2) / ((eta + R::ONE).sqr() + k2)
+}
+
+/// The mean of a reflectance `f(cos)` over the hemisphere, weighted with the cosine: Gauss's rule with 12 points.
+#[inline(always)]
+pub fn average<R: Real>(f: impl Fn(R) -> R) -> R {
+    let mut sum = R::ZERO;
+    for (mu, w) in GAUSS_12 {
+        sum = sum + f(R::of(mu)) * R::of(2.0 * mu * w);
+    }
+    sum
+}
+
+/// Points in (0, 1) and weights of Gauss's rule. [AbramowitzStegun, table 25.4]
+const GAUSS_12: [(f64, f64); 12] = [
+    (0.009_219_682_876_640_378, 0.023_587_668_193_255_917),
+    (0.047_941_371_814_762_6, 0.053_469_662_997_659_09),
+    (0.115_048_662_902_847_65, 0.080_039_164_271_673_17),
+    (0.206_341_022_856_691_26, 0.101_583_713_361_532_92),
+    (0.316_084_250_500_909_94, 0.116_746_268_269_177_39),
+    (0.437_383_295_744_265_54, 0.124_573_522_906_701_44),
+    (0.562_616_704_255_734_5, 0.124_573_522_906_701_44),
+    (0.683_915_749_499_090_1, 0.116_746_268_269_177_39),
+    (0.793_658_977_143_308_7, 0.101_583_713_361_532_92),
+    (0.884_951_337_097_152_3, 0.080_039_164_271_673_17),
+    (0.952_058_628_185_237_5, 0.053_469_662_997_659_09),
+    (0.990_780_317_123_359_6, 0.023_587_668_193_255_917),
+];
 
 #[cfg(test)]
 mod tests {
