@@ -39,6 +39,7 @@ pub(super) struct Place {
 
 impl Patches {
     /// Texture coordinates at parameters of the patch.
+    #[inline]
     pub(super) fn uv(&self, prim: u32, u: f32, v: f32) -> [f32; 2] {
         if self.mesh.uv.is_empty() {
             return [u, v];
@@ -56,6 +57,7 @@ impl Patches {
         [uv(a), uv(b), uv(c), uv(d)]
     }
     /// The interpolated shading normal, where the mesh has one.
+    #[inline]
     pub(super) fn shading_normal(&self, prim: u32, u: f32, v: f32) -> Option<Vec3<f32>> {
         if self.mesh.n.is_empty() {
             return None;
@@ -69,7 +71,7 @@ impl Patches {
         [n(a), n(b), n(c), n(d)]
     }
     /// Where a patch is, at parameters of it.
-    #[inline]
+    #[inline(always)]
     pub(super) fn place(&self, prim: u32, u: f32, v: f32) -> Place {
         if let Kind::Flat(i) = self.kinds[prim as usize] {
             let f = &self.flats[i as usize];

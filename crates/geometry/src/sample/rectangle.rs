@@ -96,10 +96,11 @@ impl SphericalRectangle {
         let g2 = f * f - z2 * (wy0 * sin_au).sqr();
         let xu = Real::clamp(z * (sin_au * 1.0_f64.copysign(f)) / g2.max(0.0).sqrt(), x0, x1);
         let d2 = xu * xu + z2;
-        let h = |y: f64| y / (d2 + y * y).sqrt();
-        let (h0, h1) = (h(y0), h(y1));
-        let hv = h0 + f64::from(u[1]) * (h1 - h0);
-        let yv = Real::clamp(hv * (d2 / (1.0 - hv * hv)).sqrt(), y0, y1);
+        // The sine of the angle to the plane of x and z runs evenly from that of y0 to that of y1; it is n / d.
+        let (r0, r1) = ((d2 + y0 * y0).sqrt(), (d2 + y1 * y1).sqrt());
+        let d = r0 * r1;
+        let n = y0 * r1 + f64::from(u[1]) * (y1 * r0 - y0 * r1);
+        let yv = Real::clamp(n * (d2 / (d * d - n * n)).sqrt(), y0, y1);
         [xu - x0, yv - y0]
     }
 }
