@@ -35,11 +35,14 @@
 
 pub mod batch;
 mod bsdf;
+mod cosine_lobe;
 pub mod fresnel;
 pub mod ggx;
+mod opaque;
 mod params;
 mod registry;
 mod surface;
+mod v_cavity;
 
 pub use bsdf::{Bsdf, BsdfSample, Uniforms};
 pub use params::{MAX_CHOICES, MAX_REALS, MAX_SPECTRA, ParamBlock, ParamInfo, ParamKind};
