@@ -1,6 +1,6 @@
 //! The lobe `cos^n` about an axis, which Phong's model and its descendants are made of.
 
-use core::f64::consts::{FRAC_1_PI, PI};
+use core::f64::consts::PI;
 
 use sparrow_math::{Real, Vec3, vec3};
 
@@ -10,13 +10,7 @@ pub(crate) fn power<R: Real>(x: R, n: R) -> R {
     x.max(R::of(1e-30)).pow(n).only_where(x.gt(R::ZERO))
 }
 
-/// Density of [`sample`] in 1/sr, by the cosine with the axis: `(n + 1) / (2 pi) cos^n`. [LafortuneWillems1994]
-#[inline(always)]
-pub(crate) fn pdf<R: Real>(cos: R, n: R) -> R {
-    (n + R::ONE) * R::of(0.5 * FRAC_1_PI) * power(cos, n)
-}
-
-/// A direction about z with the density [`pdf`].
+/// A direction about z with the density `(n + 1) / (2 pi) cos^n` in 1/sr. [LafortuneWillems1994]
 #[inline(always)]
 pub(crate) fn sample<R: Real>(u: [R; 2], n: R) -> Vec3<R> {
     let cos = power(R::ONE - u[0], R::ONE / (n + R::ONE)).min(R::ONE);

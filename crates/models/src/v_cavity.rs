@@ -8,8 +8,8 @@ use sparrow_math::{LocalDir, Real};
 use crate::opaque::Half;
 
 /// `G`
-#[inline(always)]
-pub(crate) fn g<R: Real>(o: LocalDir<R>, i: LocalDir<R>, half: &Half<R>) -> R {
+#[cfg(test)]
+fn g<R: Real>(o: LocalDir<R>, i: LocalDir<R>, half: &Half<R>) -> R {
     let lower = o.cos_theta().min(i.cos_theta());
     (R::of(2.0) * half.m.cos_theta() * lower / half.cos_d).min(R::ONE)
 }

@@ -2,8 +2,10 @@
 
 use crate::registry::models;
 
+mod ashikhmin_shirley;
 mod blinn_phong;
 mod conductor;
+mod cook_torrance;
 mod dielectric;
 mod diffuse_transmission;
 mod eon;
@@ -12,6 +14,8 @@ mod oren_nayar;
 mod phong;
 mod thin_dielectric;
 mod torrance_sparrow;
+mod torrance_sparrow_1967;
+mod ward;
 
 models! {
     /// Every surface model, by value: `Copy`, exhaustive, without allocation.
@@ -22,6 +26,10 @@ models! {
         Phong = phong::Phong, "phong";
         BlinnPhong = blinn_phong::BlinnPhong, "blinn_phong";
         TorranceSparrow = torrance_sparrow::TorranceSparrow, "torrance_sparrow";
+        TorranceSparrow1967 = torrance_sparrow_1967::TorranceSparrow1967, "torrance_sparrow_1967";
+        CookTorrance = cook_torrance::CookTorrance, "cook_torrance";
+        AshikhminShirley = ashikhmin_shirley::AshikhminShirley, "ashikhmin_shirley";
+        Ward = ward::Ward, "ward";
         DiffuseTransmission = diffuse_transmission::DiffuseTransmission, "diffuse_transmission";
         Conductor = conductor::Conductor, "conductor";
         Dielectric = dielectric::Dielectric, "dielectric";
