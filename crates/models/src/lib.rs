@@ -35,6 +35,7 @@
 
 pub mod batch;
 mod bsdf;
+mod coat;
 mod cosine_lobe;
 pub mod fresnel;
 pub mod ggx;

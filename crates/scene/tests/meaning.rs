@@ -214,22 +214,47 @@ fn stand_ins_keep_what_they_can() {
     let s = scene(
         "WorldBegin MakeNamedMaterial \"a\" \"string type\" \"interface\" \
          MakeNamedMaterial \"b\" \"string type\" \"dielectric\" \"float eta\" 1.25 \
-         Material \"mix\" \"string materials\" [\"a\" \"b\"] \
-         Material \"coatedconductor\" \"float conductor.roughness\" 0.5 \"spectrum conductor.k\" \"metal-Au-k\" \
-         Material \"coateddiffuse\" \"rgb reflectance\" [.1 .2 .3] Material \"measured\" \"string filename\" \"x\"",
+         Material \"mix\" \"string materials\" [\"a\" \"b\"] Material \"measured\" \"string filename\" \"x\"",
     );
     let mix = &s.materials[3];
     assert_eq!((mix.type_name.as_str(), mix.model), ("mix", Some(SurfaceKind::Dielectric)));
     assert_eq!(constant(&s, real(mix, "eta")), 1.25);
-    let coated = &s.materials[4];
-    assert_eq!(constant(&s, real(coated, "alpha_y")), 0.5);
-    assert_eq!(spectrum(&s, spectral(coated, "k")), &SpectrumDesc::Named("metal-Au-k".into()));
-    let diffuse = &s.materials[5];
-    assert_eq!(
-        spectrum(&s, spectral(diffuse, "reflectance")),
-        &SpectrumDesc::Rgb([0.1, 0.2, 0.3], ColorSpace::Srgb)
+    assert_eq!(spectrum(&s, spectral(&s.materials[4], "reflectance")), &SpectrumDesc::Constant(0.5));
+}
+
+#[test]
+fn coated_materials_have_the_parameters_and_defaults_of_pbrt() {
+    let s = scene(
+        "WorldBegin Material \"coateddiffuse\" Material \"coatedconductor\" \
+         Material \"coateddiffuse\" \"rgb reflectance\" [.1 .2 .3] \"float roughness\" 0.25 \"float thickness\" 2 \
+         \"float eta\" 1.25 \"bool remaproughness\" false \
+         Material \"coatedconductor\" \"float conductor.roughness\" 0.5 \"float interface.uroughness\" 0.25 \
+         \"float interface.eta\" 1.75 \"spectrum conductor.k\" \"metal-Au-k\" \
+         Material \"coatedconductor\" \"rgb reflectance\" [.1 .2 .3]",
     );
-    assert_eq!(spectrum(&s, spectral(&s.materials[6], "reflectance")), &SpectrumDesc::Constant(0.5));
+    let values = |m: usize, names: &[&str]| -> Vec<f32> {
+        names.iter().map(|n| constant(&s, real(&s.materials[m], n))).collect()
+    };
+    assert_eq!(s.materials[1].model, Some(SurfaceKind::CoatedDiffuse));
+    let of_diffuse = ["alpha_x", "alpha_y", "eta", "thickness"];
+    assert_eq!(values(1, &of_diffuse), [0.0, 0.0, 1.5, 0.01]);
+    assert_eq!(spectrum(&s, spectral(&s.materials[1], "reflectance")), &SpectrumDesc::Constant(0.5));
+    assert!(matches!(real(&s.materials[1], "alpha_x"), RealParam::RoughnessToAlpha(_)));
+
+    assert_eq!(s.materials[2].model, Some(SurfaceKind::CoatedConductor));
+    let of_conductor = ["alpha_x", "alpha_y", "alpha_base_x", "alpha_base_y", "eta", "thickness"];
+    assert_eq!(values(2, &of_conductor), [0.0, 0.0, 0.0, 0.0, 1.5, 0.01]);
+    let k = |m: usize| spectrum(&s, spectral(&s.materials[m], "k_base"));
+    assert_eq!(k(2), &SpectrumDesc::Named("metal-Cu-k".into()));
+
+    assert_eq!(values(3, &of_diffuse), [0.25, 0.25, 1.25, 2.0]);
+    assert!(matches!(real(&s.materials[3], "alpha_x"), RealParam::Texture(_)));
+    let rgb = SpectrumDesc::Rgb([0.1, 0.2, 0.3], ColorSpace::Srgb);
+    assert_eq!(spectrum(&s, spectral(&s.materials[3], "reflectance")), &rgb);
+
+    assert_eq!(values(4, &of_conductor), [0.25, 0.0, 0.5, 0.5, 1.75, 0.01]);
+    assert_eq!(k(4), &SpectrumDesc::Named("metal-Au-k".into()));
+    assert!(matches!(spectral(&s.materials[5], "k_base"), SpectrumParam::ReflectanceToK(_)));
 }
 
 #[test]

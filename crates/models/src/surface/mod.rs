@@ -4,6 +4,8 @@ use crate::registry::models;
 
 mod ashikhmin_shirley;
 mod blinn_phong;
+mod coated_conductor;
+mod coated_diffuse;
 mod conductor;
 mod cook_torrance;
 mod dielectric;
@@ -31,6 +33,8 @@ models! {
         AshikhminShirley = ashikhmin_shirley::AshikhminShirley, "ashikhmin_shirley";
         Ward = ward::Ward, "ward";
         DiffuseTransmission = diffuse_transmission::DiffuseTransmission, "diffuse_transmission";
+        CoatedDiffuse = coated_diffuse::CoatedDiffuse, "coated_diffuse";
+        CoatedConductor = coated_conductor::CoatedConductor, "coated_conductor";
         Conductor = conductor::Conductor, "conductor";
         Dielectric = dielectric::Dielectric, "dielectric";
         ThinDielectric = thin_dielectric::ThinDielectric, "thin_dielectric";

@@ -97,16 +97,17 @@ impl Builder {
         }
         let p = &params;
         match entity.name {
-            "diffuse" | "coateddiffuse" => {
+            "diffuse" => {
                 let reflectance = self.spectrum_param(p, "reflectance", Role::Albedo, 0.5);
                 Parts::surface(SurfaceKind::Lambert)
                     .spectrum("reflectance", SpectrumParam::Texture(reflectance))
             }
             "diffusetransmission" => self.diffuse_transmission(p),
-            "conductor" => self.conductor(p, ""),
-            "coatedconductor" => self.conductor(p, "conductor."),
+            "coateddiffuse" => self.coated_diffuse(p),
+            "conductor" => self.conductor(p),
+            "coatedconductor" => self.coated_conductor(p),
             "dielectric" => {
-                let eta = self.index_of_refraction(p);
+                let eta = self.index_of_refraction(p, "eta");
                 let [alpha_x, alpha_y] = self.alphas(p, "");
                 Parts::surface(SurfaceKind::Dielectric)
                     .real("eta", eta)
@@ -114,7 +115,7 @@ impl Builder {
                     .real("alpha_y", alpha_y)
             }
             "thindielectric" => {
-                let eta = self.index_of_refraction(p);
+                let eta = self.index_of_refraction(p, "eta");
                 Parts::surface(SurfaceKind::ThinDielectric).real("eta", eta)
             }
             "interface" | "none" | "" => Parts::default(),
@@ -156,8 +157,48 @@ impl Builder {
             .spectrum("transmittance", SpectrumParam::Texture(both[1]))
     }
 
-    /// A conductor by its indices or by its reflectance; `prefix` goes before the names of the coated one.
-    fn conductor(&mut self, p: &Params, prefix: &str) -> Parts {
+    fn coated_diffuse(&mut self, p: &Params) -> Parts {
+        let reflectance = self.spectrum_param(p, "reflectance", Role::Albedo, 0.5);
+        let eta = self.index_of_refraction(p, "eta");
+        let [alpha_x, alpha_y] = self.alphas(p, "");
+        let thickness = self.float_param(p, "thickness", 0.01);
+        Parts::surface(SurfaceKind::CoatedDiffuse)
+            .real("alpha_x", alpha_x)
+            .real("alpha_y", alpha_y)
+            .real("eta", eta)
+            .real("thickness", RealParam::Texture(thickness))
+            .spectrum("reflectance", SpectrumParam::Texture(reflectance))
+    }
+
+    fn conductor(&mut self, p: &Params) -> Parts {
+        let (eta, k) = self.metal(p, "");
+        let [alpha_x, alpha_y] = self.alphas(p, "");
+        Parts::surface(SurfaceKind::Conductor)
+            .real("alpha_x", alpha_x)
+            .real("alpha_y", alpha_y)
+            .spectrum("eta", eta)
+            .spectrum("k", k)
+    }
+
+    fn coated_conductor(&mut self, p: &Params) -> Parts {
+        let (eta_base, k_base) = self.metal(p, "conductor.");
+        let eta = self.index_of_refraction(p, "interface.eta");
+        let [alpha_x, alpha_y] = self.alphas(p, "interface.");
+        let [base_x, base_y] = self.alphas(p, "conductor.");
+        let thickness = self.float_param(p, "thickness", 0.01);
+        Parts::surface(SurfaceKind::CoatedConductor)
+            .real("alpha_x", alpha_x)
+            .real("alpha_y", alpha_y)
+            .real("alpha_base_x", base_x)
+            .real("alpha_base_y", base_y)
+            .real("eta", eta)
+            .real("thickness", RealParam::Texture(thickness))
+            .spectrum("eta_base", eta_base)
+            .spectrum("k_base", k_base)
+    }
+
+    /// Indices of a metal, given as such or by its reflectance; `prefix` goes before the names of the coated one.
+    fn metal(&mut self, p: &Params, prefix: &str) -> (SpectrumParam, SpectrumParam) {
         let (eta_name, k_name) = (format!("{prefix}eta"), format!("{prefix}k"));
         let eta = self.spectrum_param_given(p, &eta_name, Role::Unbounded);
         let k = self.spectrum_param_given(p, &k_name, Role::Unbounded);
@@ -168,22 +209,15 @@ impl Builder {
             );
             self.report.error(p.place("reflectance"), message);
         }
-        let (eta, k) = match reflectance {
-            Some(r) => (self.made.grey(1.0), SpectrumParam::ReflectanceToK(r)),
-            None => {
-                let mut copper = |name: &str| {
-                    self.made.add_spectrum(SpectrumTexture::Constant(SpectrumDesc::Named(name.into())))
-                };
-                let eta = eta.unwrap_or_else(|| copper("metal-Cu-eta"));
-                (eta, SpectrumParam::Texture(k.unwrap_or_else(|| copper("metal-Cu-k"))))
-            }
+        if let Some(r) = reflectance {
+            return (SpectrumParam::Texture(self.made.grey(1.0)), SpectrumParam::ReflectanceToK(r));
+        }
+        let mut or_copper = |given: Option<_>, name: &str| {
+            SpectrumParam::Texture(given.unwrap_or_else(|| {
+                self.made.add_spectrum(SpectrumTexture::Constant(SpectrumDesc::Named(name.into())))
+            }))
         };
-        let [alpha_x, alpha_y] = self.alphas(p, prefix);
-        Parts::surface(SurfaceKind::Conductor)
-            .real("alpha_x", alpha_x)
-            .real("alpha_y", alpha_y)
-            .spectrum("eta", SpectrumParam::Texture(eta))
-            .spectrum("k", k)
+        (or_copper(eta, "metal-Cu-eta"), or_copper(k, "metal-Cu-k"))
     }
 
     /// Slope widths along u and v.
@@ -196,11 +230,11 @@ impl Builder {
         })
     }
 
-    /// `eta` of a dielectric: a number goes before a spectrum.
-    fn index_of_refraction(&mut self, p: &Params) -> RealParam {
-        let constant = match p.float("eta") {
+    /// Index of a dielectric: a number goes before a spectrum.
+    fn index_of_refraction(&mut self, p: &Params, name: &str) -> RealParam {
+        let constant = match p.float(name) {
             Some(eta) => Some(eta),
-            None => match self.spectrum(p, "eta", Role::Unbounded) {
+            None => match self.spectrum(p, name, Role::Unbounded) {
                 Some(SpectrumDesc::Constant(eta)) => Some(eta),
                 // Equal components are a constant spectrum.
                 Some(SpectrumDesc::Rgb([r, g, b], _))
@@ -214,7 +248,7 @@ impl Builder {
         };
         let eta = constant.unwrap_or(1.5);
         if eta <= 0.0 {
-            self.report.error(p.place("eta"), format!("\"eta\" is {eta}; give one above zero"));
+            self.report.error(p.place(name), format!("\"{name}\" is {eta}; give one above zero"));
         }
         RealParam::Texture(self.made.constant(eta))
     }

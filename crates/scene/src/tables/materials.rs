@@ -10,11 +10,12 @@ const ROUGHNESS: &[Row] = &[
     row("vroughness", Kind::FloatTexture),
     row("remaproughness", Kind::Bool),
 ];
-/// Of the random walk through a coating.
+/// Of a coating. Sparrow's coats absorb but do not scatter within, and need no random walk.
 const LAYERS: &[Row] = &[
-    moot("thickness", Kind::FloatTexture),
+    row("thickness", Kind::FloatTexture),
+    // Means nothing without an albedo.
     moot("g", Kind::FloatTexture),
-    moot("albedo", Kind::SpectrumTexture),
+    not_yet("albedo", Kind::SpectrumTexture),
     moot("maxdepth", Kind::Int),
     moot("nsamples", Kind::Int),
 ];
@@ -70,8 +71,7 @@ pub(super) static MATERIALS: [Entity; 14] = [
             LAYERS,
             &[row("reflectance", Kind::SpectrumTexture), row("eta", Kind::FloatOrSpectrum)],
         ],
-    )
-    .instead("it is rendered as \"diffuse\" with its reflectance, without the coating"),
+    ),
     Entity::new(
         "coatedconductor",
         &[
@@ -91,8 +91,7 @@ pub(super) static MATERIALS: [Entity; 14] = [
                 row("remaproughness", Kind::Bool),
             ],
         ],
-    )
-    .instead("it is rendered as \"conductor\" with its conductor's parameters, without the coating"),
+    ),
     Entity::new("mix", &[&[row("materials", Kind::TextList), row("amount", Kind::FloatTexture)]])
         .instead("the first of its materials that has a surface stands for both"),
     Entity::new("measured", &[BUMPS, &[row("filename", Kind::Text)]])
