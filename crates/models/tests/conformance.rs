@@ -156,7 +156,7 @@ fn integrate_sphere(n: usize, f: impl Fn(LocalDir<f64>) -> f64) -> f64 {
 #[test]
 fn the_density_integrates_to_what_sampling_keeps() {
     trials(8, |kind, p, m, wo, rng| {
-        if !m.has_smooth_lobe() || p.reals[..3].iter().any(|&a| a > 0.0 && a < 0.1) {
+        if !m.has_smooth_lobe() || p.reals[..4].iter().any(|&a| a > 0.0 && a < 0.1) {
             return; // Narrow lobes need a finer grid than a unit test can pay for.
         }
         let total = integrate_sphere(400, |wi| m.pdf(wo, wi));
@@ -179,7 +179,7 @@ fn the_density_integrates_to_what_sampling_keeps() {
 fn samples_follow_the_density() {
     // Chi-square over 8 x 16 cells of equal solid angle against the density, integrated on a 16 x 16 grid per cell.
     trials(4, |kind, p, m, wo, rng| {
-        if !m.has_smooth_lobe() || p.reals[..3].iter().any(|&a| a > 0.0 && a < 0.1) {
+        if !m.has_smooth_lobe() || p.reals[..4].iter().any(|&a| a > 0.0 && a < 0.1) {
             return;
         }
         let (nz, np, n) = (8usize, 16usize, 20_000);
