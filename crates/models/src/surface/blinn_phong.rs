@@ -4,7 +4,7 @@
 //! returns all light of a normal view and less at any other, or `raw`, one. The popular `(n+8) / (8 pi)`
 //! approximates that factor and returns up to 7 % more than arrived.
 //! Limits: the lobe fades at grazing views, where a microfacet model would grow; it needs about four times the exponent of
-//! [`phong`](super::phong) for the same width.
+//! `phong` for the same width.
 
 use core::f64::consts::{FRAC_1_PI, LN_2, PI};
 

@@ -3,7 +3,9 @@
 use crate::registry::models;
 
 mod ashikhmin_shirley;
+mod banks;
 mod blinn_phong;
+mod bouguer;
 mod coated_conductor;
 mod coated_diffuse;
 mod conductor;
@@ -14,9 +16,11 @@ mod eon;
 mod lambert;
 mod oren_nayar;
 mod phong;
+mod poulin_fournier;
 mod thin_dielectric;
 mod torrance_sparrow;
 mod torrance_sparrow_1967;
+mod velvet;
 mod ward;
 
 models! {
@@ -32,6 +36,10 @@ models! {
         CookTorrance = cook_torrance::CookTorrance, "cook_torrance";
         AshikhminShirley = ashikhmin_shirley::AshikhminShirley, "ashikhmin_shirley";
         Ward = ward::Ward, "ward";
+        PoulinFournier = poulin_fournier::PoulinFournier, "poulin_fournier";
+        Banks = banks::Banks, "banks";
+        Bouguer = bouguer::Bouguer, "bouguer";
+        Velvet = velvet::Velvet, "velvet";
         DiffuseTransmission = diffuse_transmission::DiffuseTransmission, "diffuse_transmission";
         CoatedDiffuse = coated_diffuse::CoatedDiffuse, "coated_diffuse";
         CoatedConductor = coated_conductor::CoatedConductor, "coated_conductor";

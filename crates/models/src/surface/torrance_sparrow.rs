@@ -5,8 +5,8 @@
 //! with the fit for a Gaussian surface of the same curvature at its top [Walter2007, eq. 27]; or V-grooves [Blinn1977].
 //! `fresnel` chooses F: exact for a complex index (zero k is a dielectric), or the constant `reflectance`.
 //!
-//! Limits: single scattering. Without masking the value grows without bound towards grazing. [`torrance_sparrow_1967`]
-//! is the model as it was published. [`torrance_sparrow_1967`]: super::torrance_sparrow_1967
+//! Limits: single scattering. Without masking the value grows without bound towards grazing. The model as it was published
+//! is `torrance_sparrow_1967`.
 
 use core::f64::consts::FRAC_1_PI;
 
