@@ -89,4 +89,51 @@ impl<R: Real> Ggx<R> {
         // Rounding may take z to zero or below at grazing views.
         LocalDir::new(vec3(self.alpha_x * n.x, self.alpha_y * n.y, n.z.max(R::of(1e-7))).normalized())
     }
+
+    /// [`sample_visible`](Self::sample_visible) by the older construction: a disk seen from `wo`, its lower half
+    /// squeezed. `u[0]` is the squared radius, `u[1]` the angle. [Heitz2018, sec. 4]
+    #[inline(never)]
+    pub fn sample_visible_disk(&self, wo: LocalDir<R>, u: [R; 2]) -> LocalDir<R> {
+        let w = vec3(self.alpha_x * wo.x(), self.alpha_y * wo.y(), wo.z()).normalized();
+        let len2 = w.x.sqr() + w.y.sqr();
+        // Any frame serves where the view is along the normal.
+        let tilted = len2.gt(R::of(1e-14));
+        let inv = R::ONE / R::select(tilted, len2, R::ONE).sqrt();
+        let t1 = vec3(R::select(tilted, -w.y * inv, R::ONE), R::select(tilted, w.x * inv, R::ZERO), R::ZERO);
+        let t2 = w.cross(t1);
+        let (sin_phi, cos_phi) = (R::of(2.0 * PI) * u[1]).sin_cos();
+        let r = u[0].sqrt();
+        let a = r * cos_phi;
+        let s = R::of(0.5) * (R::ONE + w.z);
+        let chord = ((R::ONE - a) * (R::ONE + a)).safe_sqrt();
+        let b = (R::ONE - s) * chord + s * (r * sin_phi);
+        let n = t1 * a + t2 * b + w * (R::ONE - a * a - b * b).safe_sqrt();
+        LocalDir::new(vec3(self.alpha_x * n.x, self.alpha_y * n.y, n.z.max(R::of(1e-7))).normalized())
+    }
+
+    /// `k` of the bound on reflected directions, from the narrower width. [EtoTokuyoshi2023, eq. 6]
+    #[inline(always)]
+    fn bound(&self, wo: LocalDir<R>) -> R {
+        let a2 = self.alpha_x.min(self.alpha_y).min(R::ONE).sqr();
+        let s2 = (R::ONE + wo.sin2_theta().sqrt()).sqr();
+        (R::ONE - a2) * s2 / (s2 + a2 * wo.z().sqr())
+    }
+    /// A normal among those visible from `wo` whose mirror direction is likely to lie above: the cap of
+    /// [`sample_visible`](Self::sample_visible) cut from below. `wo` must lie above. [EtoTokuyoshi2023, listing 1]
+    #[inline(always)]
+    pub fn sample_bounded(&self, wo: LocalDir<R>, u: [R; 2]) -> LocalDir<R> {
+        let w = vec3(self.alpha_x * wo.x(), self.alpha_y * wo.y(), wo.z()).normalized();
+        let b = self.bound(wo) * w.z;
+        let (sin_phi, cos_phi) = (R::of(2.0 * PI) * u[0]).sin_cos();
+        let z = (R::ONE - u[1]) * (R::ONE + b) - b;
+        let s = ((R::ONE - z) * (R::ONE + z)).safe_sqrt();
+        let n = vec3(s * cos_phi, s * sin_phi, z) + w;
+        LocalDir::new(vec3(self.alpha_x * n.x, self.alpha_y * n.y, n.z.max(R::of(1e-7))).normalized())
+    }
+    /// Density of the directions mirrored at [`sample_bounded`](Self::sample_bounded), over `D(m)`.
+    /// [EtoTokuyoshi2023, eq. 8]
+    #[inline(always)]
+    pub fn bounded_over_d(&self, wo: LocalDir<R>) -> R {
+        R::of(0.5) / (self.bound(wo) * wo.abs_cos_theta() + self.stretched(wo))
+    }
 }

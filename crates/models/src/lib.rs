@@ -39,6 +39,7 @@ mod coat;
 mod cosine_lobe;
 pub mod fresnel;
 pub mod ggx;
+pub mod microfacet;
 mod opaque;
 mod params;
 mod registry;

@@ -92,7 +92,7 @@ pub const MAX_REALS: usize = 8;
 /// Most spectra a model may take.
 pub const MAX_SPECTRA: usize = 4;
 /// Most choices a model may take.
-pub const MAX_CHOICES: usize = 4;
+pub const MAX_CHOICES: usize = 6;
 
 /// The values of a model's parameters at one point and one set of wavelengths: numbers, spectra and choices, each
 /// in the order in which the model's table lists them. Choices are the same in all lanes.

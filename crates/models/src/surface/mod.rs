@@ -14,6 +14,8 @@ mod dielectric;
 mod diffuse_transmission;
 mod eon;
 mod lambert;
+mod microfacet_dielectric;
+mod microfacet_reflection;
 mod oren_nayar;
 mod phong;
 mod poulin_fournier;
@@ -45,6 +47,8 @@ models! {
         CoatedConductor = coated_conductor::CoatedConductor, "coated_conductor";
         Conductor = conductor::Conductor, "conductor";
         Dielectric = dielectric::Dielectric, "dielectric";
+        MicrofacetReflection = microfacet_reflection::MicrofacetReflection, "microfacet_reflection";
+        MicrofacetDielectric = microfacet_dielectric::MicrofacetDielectric, "microfacet_dielectric";
         ThinDielectric = thin_dielectric::ThinDielectric, "thin_dielectric";
     }
 }

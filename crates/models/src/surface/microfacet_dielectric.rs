@@ -1,0 +1,183 @@
+//! A boundary of facets that reflect and refract, with distribution, masking and sampling by choice.
+//!
+//! [Walter2007, eq. 16, 17, 20, 21]; exact Fresnel reflectance. The value is for radiance: transmission carries
+//! `1 / eta^2`, with eta from the side of `wo` to the other. Masking `smith` is correlated by height: `1 / (1 +
+//! Lambda_o + Lambda_i)` for reflection and `B(1 + Lambda_o, 1 + Lambda_i)` for transmission [Heitz2016, eq. 23], in
+//! which the model differs from [`dielectric`](super::dielectric). Single scattering. Where both sides have the same
+//! index, light goes straight on.
+
+use sparrow_math::{LocalDir, Real, Vec3, vec3};
+use sparrow_spectra::Spectrum;
+
+use crate::microfacet::{Facets, Masking, Ndf, NdfKind, Sampling};
+use crate::{About, Bsdf, BsdfSample, Lack, Model, ParamBlock, ParamInfo, Uniforms, fresnel};
+
+/// Reflecting and refracting facets.
+#[derive(Clone, Copy, Debug)]
+pub struct MicrofacetDielectric<R> {
+    eta: R,
+    facets: Facets<R>,
+}
+
+impl<R: Real> Model<R> for MicrofacetDielectric<R> {
+    const ABOUT: About = About::new(
+        "facets that reflect and refract: distribution, masking and sampling by choice",
+        "Walter2007, Heitz2014, Heitz2016",
+    )
+    .anisotropic()
+    .transmits()
+    .lacks(&[(Lack::Energy, "masking \"none\" hides nothing")]);
+    const PARAMS: &'static [ParamInfo] = &[
+        ParamInfo::real("eta")
+            .default(1.5)
+            .range(0.1, 10.0)
+            .soft(1.0, 2.5)
+            .doc("Index of refraction of the side below, over that of the side above."),
+        ParamInfo::real("alpha_x")
+            .default(0.2)
+            .range(1e-3, 1.0)
+            .soft(0.01, 0.7)
+            .doc("Slope width along the grain."),
+        ParamInfo::real("alpha_y")
+            .default(0.2)
+            .range(1e-3, 1.0)
+            .soft(0.01, 0.7)
+            .doc("Slope width across the grain."),
+        ParamInfo::choice("ndf", &["ggx", "beckmann"]).doc("Distribution of the facets' normals."),
+        ParamInfo::choice("masking", &["smith", "separable", "none"]).doc("How facets hide each other."),
+        ParamInfo::choice("sampling", &["visible", "disk", "full"])
+            .doc("How normals are drawn; the disk is for ggx, beckmann then draws what is visible."),
+    ];
+
+    #[inline(always)]
+    fn new(p: &ParamBlock<R>) -> Self {
+        let kind = if p.choices[0] == 0 { NdfKind::Ggx } else { NdfKind::Beckmann };
+        let masking = match p.choices[1] {
+            0 => Masking::Smith,
+            1 => Masking::Separable,
+            _ => Masking::None,
+        };
+        MicrofacetDielectric {
+            eta: p.reals[0],
+            facets: Facets::new(
+                Ndf::new(kind, p.reals[1], p.reals[2], R::ZERO),
+                masking,
+                Sampling::from_choice(p.choices[2]),
+            ),
+        }
+    }
+}
+
+/// Mirrors both directions so that the viewer is above.
+#[inline(always)]
+fn raised<R: Real>(wo: LocalDir<R>, w: LocalDir<R>) -> LocalDir<R> {
+    LocalDir::new(Vec3 { z: R::select(wo.above(), w.z(), -w.z()), ..w.v() })
+}
+
+impl<R: Real> MicrofacetDielectric<R> {
+    /// Both sides have the same index.
+    #[inline(always)]
+    fn is_absent(&self) -> R::Mask {
+        (self.eta - R::ONE).abs().lt(R::of(1e-5))
+    }
+    /// The relative index as met from the side of `wo`, transmitted over incident.
+    #[inline(always)]
+    fn eta_from(&self, wo: LocalDir<R>) -> R {
+        R::select(wo.above(), self.eta, R::ONE / self.eta)
+    }
+    /// The facet normal that carries `o`, above, to `i` by reflection or refraction. [Walter2007, eq. 13, 16]
+    #[inline(always)]
+    fn normal(o: LocalDir<R>, i: LocalDir<R>, eta: R) -> LocalDir<R> {
+        let h = (o.v() + i.v() * R::select(i.above(), R::ONE, eta)).normalized();
+        LocalDir::new(h.facing(vec3(R::ZERO, R::ZERO, R::ONE)))
+    }
+    /// `f` and the density of `i`, for `o` above and the facet normal `m` between them.
+    ///
+    /// Not inlined: with all its choices in every number type it would take minutes to build.
+    #[allow(non_snake_case, reason = "names of the formula")]
+    #[inline(never)]
+    fn value_and_density(&self, o: LocalDir<R>, i: LocalDir<R>, m: LocalDir<R>, eta: R) -> (R, R) {
+        let reflects = i.above();
+        let (o_dot_m, i_dot_m) = (o.dot(m), i.dot(m));
+        let lit =
+            o.above() & o_dot_m.gt(R::ZERO) & (i_dot_m * i.z()).gt(R::ZERO) & i.abs_cos_theta().gt(R::ZERO);
+        let D = self.facets.ndf().d(m);
+        let F = fresnel::dielectric(o_dot_m.clamp(R::ZERO, R::ONE), eta).0;
+        let seen = D * self.facets.density_over_d(o, m, o_dot_m.max(R::of(1e-9)));
+
+        let f_r = F * D * self.facets.g2_over_4cos(o, i); // [Walter2007, eq. 20]
+        let p_r = F * seen * R::of(0.25); // [Walter2007, eq. 14]
+        // [Walter2007, eq. 21], over eta^2 for radiance, and eq. 17.
+        let bend = o_dot_m * i_dot_m.abs() / (eta * i_dot_m + o_dot_m).sqr().max(R::of(1e-30));
+        let f_t = (R::ONE - F) * D * R::of(4.0) * self.facets.transmitted_g2_over_4cos(o, i) * bend;
+        let p_t = (R::ONE - F) * seen * bend * eta.sqr();
+        (R::select(reflects, f_r, f_t).only_where(lit), R::select(reflects, p_r, p_t).only_where(lit))
+    }
+}
+
+impl<R: Real> Bsdf<R> for MicrofacetDielectric<R> {
+    #[inline(always)]
+    fn f(&self, wo: LocalDir<R>, wi: LocalDir<R>) -> Spectrum<R> {
+        let (f_cos, _) = self.f_cos_pdf(wo, wi);
+        let cos = wi.abs_cos_theta();
+        let some = cos.gt(R::ZERO);
+        (f_cos / R::select(some, cos, R::ONE)).only_where(some)
+    }
+
+    #[inline(always)]
+    fn pdf(&self, wo: LocalDir<R>, wi: LocalDir<R>) -> R {
+        self.f_cos_pdf(wo, wi).1
+    }
+
+    #[inline(always)]
+    fn f_cos_pdf(&self, wo: LocalDir<R>, wi: LocalDir<R>) -> (Spectrum<R>, R) {
+        let eta = self.eta_from(wo);
+        let (o, i) = (raised(wo, wo), raised(wo, wi));
+        let (f, pdf) = self.value_and_density(o, i, Self::normal(o, i, eta), eta);
+        let there = !self.is_absent();
+        (Spectrum::splat(f * i.abs_cos_theta()).only_where(there), pdf.only_where(there))
+    }
+
+    #[inline(never)]
+    fn sample(&self, wo: LocalDir<R>, u: Uniforms<R>) -> BsdfSample<R> {
+        let eta = self.eta_from(wo);
+        let o = raised(wo, wo);
+        let delta = self.is_absent();
+        let m = LocalDir::new(Vec3::select(
+            delta,
+            vec3(R::ZERO, R::ZERO, R::ONE),
+            self.facets.sample(o, u.dir).v(),
+        ));
+        let cos_o = o.dot(m).clamp(R::ZERO, R::ONE);
+        let (reflectance, cos_t) = fresnel::dielectric(cos_o, eta);
+        let reflects = u.lobe.lt(reflectance) & !delta;
+        let refracted = m.v() * (cos_o / eta - cos_t) - o.v() * (R::ONE / eta);
+        let bent = Vec3::select(delta, -o.v(), refracted.normalized());
+        let i = LocalDir::new(Vec3::select(reflects, o.reflect(m).v(), bent));
+
+        let (f, pdf) = self.value_and_density(o, i, m, eta);
+        let density = R::select(delta, R::ONE, pdf);
+        // A facet may send light through the macrosurface the wrong way: that light is lost.
+        let right_side = R::select(reflects, i.z(), -i.z()).gt(R::ZERO);
+        let valid = o.above() & right_side & density.gt(R::ZERO);
+        let weight = R::select(delta, R::ONE, f * i.abs_cos_theta() / R::select(valid, density, R::ONE));
+        BsdfSample {
+            wi: raised(wo, i),
+            weight: Spectrum::splat(weight).only_where(valid),
+            density: density.only_where(valid),
+            eta: R::select(reflects, R::ONE, eta),
+            delta,
+            valid,
+        }
+    }
+
+    #[inline(always)]
+    fn has_smooth_lobe(&self) -> R::Mask {
+        !self.is_absent()
+    }
+
+    #[inline(always)]
+    fn regularized(self) -> Self {
+        MicrofacetDielectric { facets: self.facets.regularized(), ..self }
+    }
+}
