@@ -202,8 +202,15 @@ fn every_model_of_the_registry_is_a_material_with_its_own_parameters() {
         let s = scene(&text);
         let m = &s.materials[1];
         assert_eq!(m.model, Some(*kind));
-        let n_reals = kind.params().iter().filter(|p| p.kind == ParamKind::Real).count();
-        assert_eq!((m.reals.len(), m.spectra.len()), (n_reals, kind.params().len() - n_reals), "{text}");
+        let count = |of: fn(&ParamKind) -> bool| kind.params().iter().filter(|p| of(&p.kind)).count();
+        let n_reals = count(|k| matches!(k, ParamKind::Real));
+        let n_choices = count(|k| matches!(k, ParamKind::Choice(_)));
+        let n_spectra = kind.params().len() - n_reals - n_choices;
+        assert_eq!(
+            (m.reals.len(), m.spectra.len(), m.choices.len()),
+            (n_reals, n_spectra, n_choices),
+            "{text}"
+        );
     }
     let s = scene("WorldBegin Material \"thin_dielectric\" \"float eta\" 1.25");
     assert_eq!(constant(&s, real(&s.materials[1], "eta")), 1.25);
