@@ -12,7 +12,7 @@ use sparrow_spectra::Spectrum;
 
 /// A number inside a record, by its path.
 fn at(v: &Value, path: &str) -> f64 {
-    v.pointer(path).and_then(Value::as_f64).unwrap_or_else(|| panic!("no number at {path} of {v}"))
+    v.pointer(path).and_then(Value::as_f64).expect("the record has a number there")
 }
 
 #[track_caller]

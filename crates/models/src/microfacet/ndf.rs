@@ -191,12 +191,12 @@ impl<R: Real> Ndf<R> {
         let (sin_phi, cos_phi) = (R::of(2.0 * PI) * u[1]).sin_cos();
         let rest = (R::ONE - u[0]).max(R::of(1e-12));
         match self.kind {
-            NdfKind::Ggx => self.from_slope((u[0] / rest).sqrt(), cos_phi, sin_phi),
-            NdfKind::Beckmann => self.from_slope((-rest.ln()).safe_sqrt(), cos_phi, sin_phi),
+            NdfKind::Ggx => self.of_slope((u[0] / rest).sqrt(), cos_phi, sin_phi),
+            NdfKind::Beckmann => self.of_slope((-rest.ln()).safe_sqrt(), cos_phi, sin_phi),
             NdfKind::StudentT => {
                 let x = -rest.ln() / (self.shape - R::ONE);
                 let r2 = (self.shape - R::ONE) * x * exp_m1_over(x);
-                self.from_slope(r2.safe_sqrt(), cos_phi, sin_phi)
+                self.of_slope(r2.safe_sqrt(), cos_phi, sin_phi)
             }
             NdfKind::Blinn => {
                 let x = R::of(2.0) * rest.ln() / (self.shape + R::of(2.0));
@@ -214,7 +214,7 @@ impl<R: Real> Ndf<R> {
     }
     /// The normal of the slope `r` widths long.
     #[inline(always)]
-    fn from_slope(&self, r: R, cos_phi: R, sin_phi: R) -> LocalDir<R> {
+    fn of_slope(&self, r: R, cos_phi: R, sin_phi: R) -> LocalDir<R> {
         LocalDir::new(vec3(self.alpha_x * r * cos_phi, self.alpha_y * r * sin_phi, R::ONE).normalized())
     }
     /// Normals visible from one side can be drawn.
