@@ -10,10 +10,13 @@ use sparrow_math::{LocalDir, Real, vec3};
 
 use crate::cubature::{self, Cubature, Region, Stop};
 
-/// Samples in the regions with which integration begins.
-const PER_REGION: usize = 8;
+/// Samples in the regions with which integration begins, at least.
+const PER_REGION: usize = 2;
 /// Largest extent of such a region, in radians: lobes without samples are found where they are no narrower.
 const WIDEST: f64 = 0.16;
+/// A rule of degree 7 looks at a fortieth of its region's width from the border: gaps up to this many times wider than
+/// their neighbours are seen where they begin.
+const MUCH_WIDER: f64 = 64.0;
 
 /// Integrals over the cells of a partition.
 pub type Integral<const K: usize> = Cubature<K>;
@@ -43,7 +46,7 @@ impl Partition {
         points.sort_by(|a, b| a[0].total_cmp(&b[0]));
         let at = points.partition_point(|q| q[0] < FRAC_PI_2);
         p.nodes.push(Node::Cell(0));
-        let plan = Plan { per_cell: (samples.len() / cells.max(1)).max(2 * PER_REGION), finest };
+        let plan = Plan { per_cell: (samples.len() / cells.max(1)).max(16), finest };
         let (upper, lower) = points.split_at_mut(at);
         let low = p.grow(upper, [[0.0, -PI], [FRAC_PI_2, PI]], 0, None, &plan);
         let high = p.grow(lower, [[FRAC_PI_2, -PI], [PI, PI]], 0, None, &plan);
@@ -124,7 +127,7 @@ impl Partition {
         let Some((axis, at, middle)) = cut.filter(|_| points.len() >= 2 * PER_REGION) else {
             let cell = cell.unwrap_or_else(|| self.new_cell());
             self.nodes.push(Node::Cell(cell));
-            self.tile(rect, cell as usize);
+            self.tile(rect, points, cell as usize);
             return index;
         };
         self.nodes.push(Node::Cell(cell.unwrap_or(0)));
@@ -145,23 +148,54 @@ impl Partition {
         (self.cells - 1) as u32
     }
 
-    /// Regions of a rectangle, none wider than [`WIDEST`].
-    fn tile(&mut self, rect: [[f64; 2]; 2], cell: usize) {
-        let extent = [0, 1].map(|a| rect[1][a] - rect[0][a]);
+    /// Regions of a rectangle, none wider than [`WIDEST`], and growing by doubling into gaps between samples: tails fall
+    /// off by powers, and a rule over a whole gap would not see where it begins.
+    fn tile(&mut self, rect: [[f64; 2]; 2], points: &[[f64; 2]], cell: usize) {
         let sine = [rect[0][0], rect[1][0], FRAC_PI_2.clamp(rect[0][0], rect[1][0])]
             .map(Real::sin)
             .into_iter()
-            .fold(0.0, f64::max);
-        let n = [extent[0] / WIDEST, extent[1] * sine / WIDEST].map(|n| n.ceil().max(1.0));
-        for i in 0..n[0] as usize {
-            for j in 0..n[1] as usize {
-                let corner = |i: usize, j: usize| {
-                    [rect[0][0] + extent[0] * i as f64 / n[0], rect[0][1] + extent[1] * j as f64 / n[1]]
-                };
-                self.regions.push(Region { lo: corner(i, j), hi: corner(i + 1, j + 1), cell });
+            .fold(1e-9, f64::max);
+        let cuts = [(0, WIDEST), (1, WIDEST / sine)].map(|(axis, widest)| {
+            let mut at = vec![rect[0][axis], rect[1][axis]];
+            at.extend(points.iter().map(|p| p[axis]));
+            at.sort_by(f64::total_cmp);
+            graded(&at, widest)
+        });
+        for a in cuts[0].windows(2) {
+            for b in cuts[1].windows(2) {
+                self.regions.push(Region { lo: [a[0], b[0]], hi: [a[1], b[1]], cell });
             }
         }
     }
+}
+
+/// Cuts of the interval from the first to the last of `at`, none farther apart than `widest`. A gap that is much wider
+/// than its neighbour is cut at distances that double from there.
+fn graded(at: &[f64], widest: f64) -> Vec<f64> {
+    let (Some(&first), Some(&last)) = (at.first(), at.last()) else { return Vec::new() };
+    let gap = |k: usize| at[k + 1] - at[k];
+    let mut cuts = vec![first, last];
+    for k in 0..at.len() - 1 {
+        let above = Some(k + 1).filter(|j| j + 1 < at.len());
+        for (neighbour, from, sign) in [(k.checked_sub(1), at[k], 1.0), (above, at[k + 1], -1.0)] {
+            let Some(scale) = neighbour.map(|j| gap(j).max(1e-9 * (last - first))) else { continue };
+            if gap(k) > MUCH_WIDER * scale {
+                let (mut step, mut place) = (scale, 0.0);
+                while place < 0.5 * gap(k) {
+                    cuts.push(from + sign * place);
+                    place += step;
+                    step *= 2.0;
+                }
+            }
+        }
+    }
+    cuts.sort_by(f64::total_cmp);
+    let mut all = vec![first];
+    for pair in cuts.windows(2) {
+        let n = ((pair[1] - pair[0]) / widest).ceil();
+        (1..=n as usize).for_each(|k| all.push(pair[0] + (pair[1] - pair[0]) * k as f64 / n));
+    }
+    all
 }
 
 struct Plan {
@@ -182,17 +216,27 @@ impl Plan {
         if n < 4 {
             return None;
         }
-        let mut sort =
-            |k: usize| points.select_nth_unstable_by(k, |a, b| a[axis].total_cmp(&b[axis])).1[axis];
-        let (first, third, at) = (sort(n / 4), sort(3 * n / 4), sort(n / 2));
-        let sine =
-            if axis == 1 { points.iter().map(|p| Real::sin(p[0])).sum::<f64>() / n as f64 } else { 1.0 };
-        let inside = rect[0][axis] < at && at < rect[1][axis];
-        (inside && (third - first) * sine > finest).then(|| {
-            // Equal angles all belong above the cut.
-            points.sort_unstable_by(|a, b| a[axis].total_cmp(&b[axis]));
-            (axis, at, points.partition_point(|p| p[axis] < at))
-        })
+        let mut nth = |k: usize| points.select_nth_unstable_by(k, |a, b| a[axis].total_cmp(&b[axis])).1[axis];
+        let width = if finest > 0.0 { nth(3 * n / 4) - nth(n / 4) } else { f64::INFINITY };
+        let median = nth(n / 2);
+        // Between two samples: on one of them, it would seem to have no distance from its border.
+        let lower = points[..n / 2].iter().map(|p| p[axis]).fold(f64::NEG_INFINITY, f64::max);
+        let at = lower + 0.5 * (median - lower);
+        let at = if at > lower { at } else { median };
+        let mean_sine = || points.iter().map(|p| Real::sin(p[0])).sum::<f64>() / n as f64;
+        let wide = finest <= 0.0 || width * if axis == 1 { mean_sine() } else { 1.0 } > finest;
+        if !(wide && rect[0][axis] < at && at < rect[1][axis]) {
+            return None;
+        }
+        // Equal angles all belong above the cut.
+        let mut below = 0;
+        for k in 0..n {
+            if points[k][axis] < at {
+                points.swap(below, k);
+                below += 1;
+            }
+        }
+        Some((axis, at, below))
     }
 }
 
@@ -267,6 +311,12 @@ mod tests {
             c.expected = v[0] * f64::from(n);
         }
         assert!(crate::chi_square(&counts).p < 1e-6);
+    }
+
+    #[test]
+    fn intervals_grow_away_from_samples() {
+        assert_eq!(graded(&[0.0, 1.0, 101.0], 1e3), [0.0, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 101.0]);
+        assert_eq!(graded(&[0.0, 0.4, 1.0], 0.5), [0.0, 0.5, 1.0]);
     }
 
     #[test]
