@@ -64,6 +64,8 @@ mod tests {
     #[cfg(target_os = "linux")]
     fn linux_tells_everything() {
         let block = vec![1u8; 64 << 20];
+        // Held until its memory has been counted.
+        std::hint::black_box(&block);
         let u = Usage::now();
         assert!(u.peak_memory_bytes.unwrap() >= block.len() as u64, "{u:?}");
         assert!(u.cpu_seconds.unwrap() > 0.0, "{u:?}");

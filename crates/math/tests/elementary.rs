@@ -1,6 +1,7 @@
 //! The elementary functions against the platform's, in units in the last place.
 
 #![allow(clippy::disallowed_methods, reason = "the platform's functions are the oracle here")]
+#![allow(clippy::print_stdout, clippy::type_complexity, reason = "figures for the reader of the test")]
 
 use sparrow_math::{Lanes, Real};
 
@@ -82,8 +83,8 @@ fn lanes_equal_scalars_bit_for_bit() {
             (x.atan2(L::of(0.3)), |v| Real::atan2(v, 0.3)),
         ];
         for (lanes, scalar) in cases {
-            for i in 0..8 {
-                assert_eq!(lanes.0[i].to_bits(), scalar(xs[i]).to_bits(), "at {}", xs[i]);
+            for (lane, x) in lanes.0.iter().zip(xs) {
+                assert_eq!(lane.to_bits(), scalar(x).to_bits(), "at {x}");
             }
         }
     }

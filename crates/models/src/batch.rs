@@ -65,10 +65,7 @@ pub fn f_cos_pdf(
     wi: &DirColumns<'_>,
     out: &mut EvalColumns<'_>,
 ) {
-    let n = out.pdf.len();
-    let whole = n - n % WIDTH;
-    dispatch::eval(kind, params, wo, wi, out, 0..whole);
-    kind.eval_columns::<f32>(params, wo, wi, out, whole..n);
+    kind.eval_columns(params, wo, wi, out);
 }
 
 /// Samples of one model at many points; `u` holds the columns of [`Uniforms`]: lobe, then direction.
@@ -81,15 +78,12 @@ pub fn sample(
     u: &[&[f32]; 3],
     out: &mut SampleColumns<'_>,
 ) {
-    let n = out.density.len();
-    let whole = n - n % WIDTH;
-    dispatch::sample(kind, params, wo, u, out, 0..whole);
-    kind.sample_columns::<f32>(params, wo, u, out, whole..n);
+    kind.sample_columns(params, wo, u, out);
 }
 
 /// Lanes of the batch form.
 const WIDTH: usize = 8;
-type L = Lanes<WIDTH>;
+pub(crate) type L = Lanes<WIDTH>;
 type Range = core::ops::Range<usize>;
 
 #[inline(always)]
@@ -135,7 +129,7 @@ fn put<R: Real>(s: Spectrum<R>, columns: &mut [&mut [f32]; N_LAMBDA], i: usize) 
 
 /// The loop of [`f_cos_pdf`] for one model and one number type.
 #[inline(always)]
-pub(crate) fn eval_model<R: Real, M: Model<R> + Bsdf<R>>(
+fn eval_model<R: Real, M: Model<R> + Bsdf<R>>(
     p: &ParamColumns<'_>,
     wo: &DirColumns<'_>,
     wi: &DirColumns<'_>,
@@ -151,7 +145,7 @@ pub(crate) fn eval_model<R: Real, M: Model<R> + Bsdf<R>>(
 
 /// The loop of [`sample`] for one model and one number type.
 #[inline(always)]
-pub(crate) fn sample_model<R: Real, M: Model<R> + Bsdf<R>>(
+fn sample_model<R: Real, M: Model<R> + Bsdf<R>>(
     p: &ParamColumns<'_>,
     wo: &DirColumns<'_>,
     u: &[&[f32]; 3],
@@ -172,41 +166,67 @@ pub(crate) fn sample_model<R: Real, M: Model<R> + Bsdf<R>>(
     }
 }
 
-/// Kernels for the vector units, chosen at run time.
-mod dispatch {
-    use super::{DirColumns, EvalColumns, L, ParamColumns, Range, SampleColumns, SurfaceKind};
+/// Evaluates one model, in lanes as far as they are filled. `S` and `V` are the model over `f32` and over lanes.
+///
+/// A function of its own for each model: all of them in one would take the compiler minutes.
+#[inline(never)]
+pub(crate) fn eval<S: Model<f32> + Bsdf<f32>, V: Model<L> + Bsdf<L>>(
+    p: &ParamColumns<'_>,
+    wo: &DirColumns<'_>,
+    wi: &DirColumns<'_>,
+    out: &mut EvalColumns<'_>,
+) {
+    let n = out.pdf.len();
+    let whole = n - n % WIDTH;
+    kernel::eval::<V>(p, wo, wi, out, 0..whole);
+    eval_model::<f32, S>(p, wo, wi, out, whole..n);
+}
+
+/// Samples one model, in lanes as far as they are filled. `S` and `V` are the model over `f32` and over lanes.
+#[inline(never)]
+pub(crate) fn draw<S: Model<f32> + Bsdf<f32>, V: Model<L> + Bsdf<L>>(
+    p: &ParamColumns<'_>,
+    wo: &DirColumns<'_>,
+    u: &[&[f32]; 3],
+    out: &mut SampleColumns<'_>,
+) {
+    let n = out.density.len();
+    let whole = n - n % WIDTH;
+    kernel::draw::<V>(p, wo, u, out, 0..whole);
+    sample_model::<f32, S>(p, wo, u, out, whole..n);
+}
+
+/// Kernels for the vector units, chosen at run time: the only place of this crate that needs `unsafe`.
+mod kernel {
+    use super::{
+        Bsdf, DirColumns, EvalColumns, L, Model, ParamColumns, Range, SampleColumns, eval_model, sample_model,
+    };
 
     #[cfg(target_arch = "x86_64")]
-    mod avx2 {
-        use super::{DirColumns, EvalColumns, L, ParamColumns, Range, SampleColumns, SurfaceKind};
-
-        #[target_feature(enable = "avx2")]
-        pub(super) fn eval(
-            kind: SurfaceKind,
-            p: &ParamColumns<'_>,
-            wo: &DirColumns<'_>,
-            wi: &DirColumns<'_>,
-            out: &mut EvalColumns<'_>,
-            range: Range,
-        ) {
-            kind.eval_columns::<L>(p, wo, wi, out, range);
-        }
-
-        #[target_feature(enable = "avx2")]
-        pub(super) fn sample(
-            kind: SurfaceKind,
-            p: &ParamColumns<'_>,
-            wo: &DirColumns<'_>,
-            u: &[&[f32]; 3],
-            out: &mut SampleColumns<'_>,
-            range: Range,
-        ) {
-            kind.sample_columns::<L>(p, wo, u, out, range);
-        }
+    #[target_feature(enable = "avx2")]
+    fn eval_avx2<V: Model<L> + Bsdf<L>>(
+        p: &ParamColumns<'_>,
+        wo: &DirColumns<'_>,
+        wi: &DirColumns<'_>,
+        out: &mut EvalColumns<'_>,
+        range: Range,
+    ) {
+        eval_model::<L, V>(p, wo, wi, out, range);
     }
 
-    pub(super) fn eval(
-        kind: SurfaceKind,
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx2")]
+    fn draw_avx2<V: Model<L> + Bsdf<L>>(
+        p: &ParamColumns<'_>,
+        wo: &DirColumns<'_>,
+        u: &[&[f32]; 3],
+        out: &mut SampleColumns<'_>,
+        range: Range,
+    ) {
+        sample_model::<L, V>(p, wo, u, out, range);
+    }
+
+    pub(super) fn eval<V: Model<L> + Bsdf<L>>(
         p: &ParamColumns<'_>,
         wo: &DirColumns<'_>,
         wi: &DirColumns<'_>,
@@ -217,13 +237,12 @@ mod dispatch {
         if std::arch::is_x86_feature_detected!("avx2") {
             // SAFETY: the processor has AVX2, which is all that the kernel asks for.
             #[allow(unsafe_code, reason = "calling a kernel compiled for a feature found at run time")]
-            return unsafe { avx2::eval(kind, p, wo, wi, out, range) };
+            return unsafe { eval_avx2::<V>(p, wo, wi, out, range) };
         }
-        kind.eval_columns::<L>(p, wo, wi, out, range);
+        eval_model::<L, V>(p, wo, wi, out, range);
     }
 
-    pub(super) fn sample(
-        kind: SurfaceKind,
+    pub(super) fn draw<V: Model<L> + Bsdf<L>>(
         p: &ParamColumns<'_>,
         wo: &DirColumns<'_>,
         u: &[&[f32]; 3],
@@ -234,8 +253,8 @@ mod dispatch {
         if std::arch::is_x86_feature_detected!("avx2") {
             // SAFETY: the processor has AVX2, which is all that the kernel asks for.
             #[allow(unsafe_code, reason = "calling a kernel compiled for a feature found at run time")]
-            return unsafe { avx2::sample(kind, p, wo, u, out, range) };
+            return unsafe { draw_avx2::<V>(p, wo, u, out, range) };
         }
-        kind.sample_columns::<L>(p, wo, u, out, range);
+        sample_model::<L, V>(p, wo, u, out, range);
     }
 }

@@ -33,6 +33,7 @@
 //! # Ok::<(), &str>(())
 //! ```
 
+#[cfg(feature = "batch")]
 pub mod batch;
 mod bsdf;
 mod coat;

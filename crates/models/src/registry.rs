@@ -122,35 +122,30 @@ macro_rules! models {
         }
 
         /// One match for a whole batch; the loops are monomorphic.
+        #[cfg(feature = "batch")]
         impl $Kind {
-            #[inline(always)]
-            pub(crate) fn eval_columns<R: sparrow_math::Real>(
+            pub(crate) fn eval_columns(
                 self,
                 p: &$crate::batch::ParamColumns<'_>,
                 wo: &$crate::batch::DirColumns<'_>,
                 wi: &$crate::batch::DirColumns<'_>,
                 out: &mut $crate::batch::EvalColumns<'_>,
-                range: core::ops::Range<usize>,
             ) {
+                use $crate::batch::{L, eval};
                 match self {
-                    $( $Kind::$Variant => {
-                        $crate::batch::eval_model::<R, $module::$Type<R>>(p, wo, wi, out, range);
-                    } )*
+                    $( $Kind::$Variant => eval::<$module::$Type<f32>, $module::$Type<L>>(p, wo, wi, out), )*
                 }
             }
-            #[inline(always)]
-            pub(crate) fn sample_columns<R: sparrow_math::Real>(
+            pub(crate) fn sample_columns(
                 self,
                 p: &$crate::batch::ParamColumns<'_>,
                 wo: &$crate::batch::DirColumns<'_>,
                 u: &[&[f32]; 3],
                 out: &mut $crate::batch::SampleColumns<'_>,
-                range: core::ops::Range<usize>,
             ) {
+                use $crate::batch::{L, draw};
                 match self {
-                    $( $Kind::$Variant => {
-                        $crate::batch::sample_model::<R, $module::$Type<R>>(p, wo, u, out, range);
-                    } )*
+                    $( $Kind::$Variant => draw::<$module::$Type<f32>, $module::$Type<L>>(p, wo, u, out), )*
                 }
             }
         }

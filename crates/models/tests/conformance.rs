@@ -255,8 +255,7 @@ fn reciprocity_up_to_the_square_of_eta() {
         let (a, b) = (m.f(wo, wi), m.f(wi, wo));
         // A transmitted value is in proportion to the squared index of its viewer's side.
         let eta = p.reals[0];
-        let transmits =
-            kind.params()[0].name == "eta" && kind.about().transmits && wo.z() * wi.z() < 0.0;
+        let transmits = kind.params()[0].name == "eta" && kind.about().transmits && wo.z() * wi.z() < 0.0;
         let squeeze = if !transmits {
             1.0
         } else if wo.z() > 0.0 {

@@ -1,6 +1,8 @@
 //! The layered models against a random walk through the same layers, in the manner of pbrt-v4's `LayeredBxDF`: an interface, a
 //! clear or absorbing medium, a base, none of which loses light to further facets. `cargo test --release --test layered_walk -- --nocapture` prints the errors.
 
+#![allow(clippy::print_stdout, reason = "figures for the reader of the test")]
+
 use sparrow_math::{LocalDir, Real, vec3};
 use sparrow_models::{Bsdf, ParamBlock, Surface, SurfaceKind, Uniforms};
 use sparrow_spectra::Spectrum;
