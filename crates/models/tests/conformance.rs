@@ -1,6 +1,6 @@
-//! Every registered model, over random parameters of its own table: density, weights, energy, edges, lanes.
+//! Every registered model, over random parameters of its own table: density, weights, energy, edges. Lanes are held to scalars in `batch.rs`.
 
-use sparrow_math::{Lanes, LocalDir, Mask, Real, vec3};
+use sparrow_math::{LocalDir, Real, vec3};
 use sparrow_models::{
     Bsdf, Lack, MAX_CHOICES, MAX_REALS, MAX_SPECTRA, ParamBlock, ParamKind, Surface, SurfaceKind, Uniforms,
 };
@@ -321,64 +321,5 @@ fn to_f32(p: &ParamBlock<f64>) -> ParamBlock<f32> {
         reals: p.reals.map(|v| v as f32),
         spectra: p.spectra.map(|s| Spectrum(s.0.map(|v| v as f32))),
         choices: p.choices,
-    }
-}
-
-#[test]
-fn eight_lanes_equal_eight_scalars_bit_for_bit() {
-    type L = Lanes<8>;
-    for &kind in SurfaceKind::ALL {
-        let mut rng = Random(99);
-        for _ in 0..200 {
-            let mut ps: [ParamBlock<f32>; 8] = [(); 8].map(|()| to_f32(&random_params(kind, &mut rng)));
-            // Lanes differ in numbers, not in choices.
-            let choices = ps[0].choices;
-            ps.iter_mut().for_each(|p| p.choices = choices);
-            let dirs = |rng: &mut Random| {
-                [(); 8].map(|()| {
-                    let lower = rng.next() < 0.3;
-                    LocalDir::new(direction(rng, lower).v().to_f32())
-                })
-            };
-            let (wo, wi) = (dirs(&mut rng), dirs(&mut rng));
-            let us: [Uniforms<f32>; 8] = [(); 8]
-                .map(|()| Uniforms { lobe: rng.next() as f32, dir: [rng.next() as f32, rng.next() as f32] });
-            let gather = |f: &dyn Fn(usize) -> f32| -> L { Lanes([0, 1, 2, 3, 4, 5, 6, 7].map(f)) };
-            let mut block = ParamBlock::<L> { choices, ..ParamBlock::default() };
-            for k in 0..MAX_REALS {
-                block.reals[k] = gather(&|i| ps[i].reals[k]);
-            }
-            for k in 0..MAX_SPECTRA {
-                for w in 0..4 {
-                    block.spectra[k].0[w] = gather(&|i| ps[i].spectra[k].0[w]);
-                }
-            }
-            let dir = |d: &[LocalDir<f32>; 8]| {
-                LocalDir::new(vec3(gather(&|i| d[i].x()), gather(&|i| d[i].y()), gather(&|i| d[i].z())))
-            };
-            let m = kind.bind(&block);
-            let (f, pdf) = m.f_cos_pdf(dir(&wo), dir(&wi));
-            let s = m.sample(
-                dir(&wo),
-                Uniforms {
-                    lobe: gather(&|i| us[i].lobe),
-                    dir: [gather(&|i| us[i].dir[0]), gather(&|i| us[i].dir[1])],
-                },
-            );
-            for i in 0..8 {
-                let scalar = kind.bind(&ps[i]);
-                let (f1, pdf1) = scalar.f_cos_pdf(wo[i], wi[i]);
-                let s1 = scalar.sample(wo[i], us[i]);
-                let same = |a: f32, b: f32| a.to_bits() == b.to_bits() || (a == 0.0 && b == 0.0);
-                for w in 0..4 {
-                    assert!(same(f[w].0[i], f1[w]), "{} f {} {}", kind.name(), f[w].0[i], f1[w]);
-                    assert!(same(s.weight[w].0[i], s1.weight[w]), "{} weight", kind.name());
-                }
-                assert!(same(pdf.0[i], pdf1) && same(s.density.0[i], s1.density), "{} density", kind.name());
-                assert!(same(s.wi.z().0[i], s1.wi.z()), "{} wi", kind.name());
-                assert_eq!(s.valid.0[i] != 0, s1.valid);
-            }
-            assert_eq!(s.valid.any(), s.valid.0.iter().any(|&v| v != 0));
-        }
     }
 }
