@@ -9,6 +9,7 @@ pub mod elementary;
 mod frame;
 mod lanes;
 mod real;
+mod simd;
 mod transform;
 mod vec3;
 pub mod warp;
@@ -17,6 +18,7 @@ pub use bounds::Aabb;
 pub use frame::{Frame, LocalDir};
 pub use lanes::{LaneMask, Lanes};
 pub use real::{Mask, Real};
+pub use simd::{InLanes, in_lanes};
 pub use transform::Transform;
 pub use vec3::{Vec3, vec3};
 

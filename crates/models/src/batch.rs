@@ -4,7 +4,10 @@
 //! found at run time. With fused multiply-add off, which is the case here, the results equal those of `f32` bit for bit,
 //! on every machine. What does not fill eight lanes is computed one by one.
 
-use sparrow_math::{Lanes, LocalDir, Real, vec3};
+use core::marker::PhantomData;
+use core::ops::Range;
+
+use sparrow_math::{InLanes, LocalDir, Real, in_lanes, vec3};
 use sparrow_spectra::{N_LAMBDA, Spectrum};
 
 use crate::{Bsdf, MAX_CHOICES, MAX_REALS, MAX_SPECTRA, Model, ParamBlock, SurfaceKind, Uniforms};
@@ -81,10 +84,11 @@ pub fn sample(
     kind.sample_columns(params, wo, u, out);
 }
 
-/// Lanes of the batch form.
-const WIDTH: usize = 8;
-pub(crate) type L = Lanes<WIDTH>;
-type Range = core::ops::Range<usize>;
+/// A model without its number type.
+pub(crate) trait Family {
+    /// The model over `R`.
+    type Of<R: Real>: Model<R> + Bsdf<R>;
+}
 
 #[inline(always)]
 fn dir<R: Real>(c: &DirColumns<'_>, i: usize) -> LocalDir<R> {
@@ -127,50 +131,63 @@ fn put<R: Real>(s: Spectrum<R>, columns: &mut [&mut [f32]; N_LAMBDA], i: usize) 
     s.0[3].store(d, i);
 }
 
-/// The loop of [`f_cos_pdf`] for one model and one number type.
-#[inline(always)]
-fn eval_model<R: Real, M: Model<R> + Bsdf<R>>(
-    p: &ParamColumns<'_>,
-    wo: &DirColumns<'_>,
-    wi: &DirColumns<'_>,
-    out: &mut EvalColumns<'_>,
-    range: Range,
-) {
-    for i in range.step_by(R::WIDTH) {
-        let (f_cos, pdf) = bind::<R, M>(p, i).f_cos_pdf(dir(wo, i), dir(wi, i));
-        put(f_cos, &mut out.f_cos, i);
-        pdf.store(out.pdf, i);
+/// The loop of [`f_cos_pdf`] over `range`, whose length is a multiple of the lanes.
+struct Eval<'a, 'b, F> {
+    p: &'a ParamColumns<'a>,
+    wo: &'a DirColumns<'a>,
+    wi: &'a DirColumns<'a>,
+    out: &'a mut EvalColumns<'b>,
+    range: Range<usize>,
+    family: PhantomData<F>,
+}
+impl<F: Family> InLanes for Eval<'_, '_, F> {
+    type Output = ();
+    #[inline(always)]
+    fn run<R: Real>(self) {
+        for i in self.range.step_by(R::WIDTH) {
+            let model = bind::<R, F::Of<R>>(self.p, i);
+            let (f_cos, pdf) = model.f_cos_pdf(dir(self.wo, i), dir(self.wi, i));
+            put(f_cos, &mut self.out.f_cos, i);
+            pdf.store(self.out.pdf, i);
+        }
     }
 }
 
-/// The loop of [`sample`] for one model and one number type.
-#[inline(always)]
-fn sample_model<R: Real, M: Model<R> + Bsdf<R>>(
-    p: &ParamColumns<'_>,
-    wo: &DirColumns<'_>,
-    u: &[&[f32]; 3],
-    out: &mut SampleColumns<'_>,
-    range: Range,
-) {
-    for i in range.step_by(R::WIDTH) {
-        let u = Uniforms { lobe: R::load(u[0], i), dir: [R::load(u[1], i), R::load(u[2], i)] };
-        let s = bind::<R, M>(p, i).sample(dir(wo, i), u);
-        let v = s.wi.v();
-        v.x.store(out.wi[0], i);
-        v.y.store(out.wi[1], i);
-        v.z.store(out.wi[2], i);
-        put(s.weight.only_where(s.valid), &mut out.weight, i);
-        s.density.only_where(s.valid).store(out.density, i);
-        s.eta.store(out.eta, i);
-        R::ONE.only_where(s.delta).store(out.delta, i);
+/// The loop of [`sample`] over `range`, whose length is a multiple of the lanes.
+struct Draw<'a, 'b, F> {
+    p: &'a ParamColumns<'a>,
+    wo: &'a DirColumns<'a>,
+    u: &'a [&'a [f32]; 3],
+    out: &'a mut SampleColumns<'b>,
+    range: Range<usize>,
+    family: PhantomData<F>,
+}
+impl<F: Family> InLanes for Draw<'_, '_, F> {
+    type Output = ();
+    #[inline(always)]
+    fn run<R: Real>(self) {
+        let (u, out) = (self.u, self.out);
+        for i in self.range.step_by(R::WIDTH) {
+            let u = Uniforms { lobe: R::load(u[0], i), dir: [R::load(u[1], i), R::load(u[2], i)] };
+            let s = bind::<R, F::Of<R>>(self.p, i).sample(dir(self.wo, i), u);
+            let v = s.wi.v();
+            v.x.store(out.wi[0], i);
+            v.y.store(out.wi[1], i);
+            v.z.store(out.wi[2], i);
+            put(s.weight.only_where(s.valid), &mut out.weight, i);
+            s.density.only_where(s.valid).store(out.density, i);
+            s.eta.store(out.eta, i);
+            R::ONE.only_where(s.delta).store(out.delta, i);
+        }
     }
 }
 
-/// Evaluates one model, in lanes as far as they are filled. `S` and `V` are the model over `f32` and over lanes.
-///
-/// A function of its own for each model: all of them in one would take the compiler minutes.
+/// Lanes of the batch form.
+const WIDTH: usize = 8;
+
+/// Evaluates one model, in lanes as far as they are filled.
 #[inline(never)]
-pub(crate) fn eval<S: Model<f32> + Bsdf<f32>, V: Model<L> + Bsdf<L>>(
+pub(crate) fn eval<F: Family>(
     p: &ParamColumns<'_>,
     wo: &DirColumns<'_>,
     wi: &DirColumns<'_>,
@@ -178,13 +195,13 @@ pub(crate) fn eval<S: Model<f32> + Bsdf<f32>, V: Model<L> + Bsdf<L>>(
 ) {
     let n = out.pdf.len();
     let whole = n - n % WIDTH;
-    kernel::eval::<V>(p, wo, wi, out, 0..whole);
-    eval_model::<f32, S>(p, wo, wi, out, whole..n);
+    in_lanes(Eval::<F> { p, wo, wi, out, range: 0..whole, family: PhantomData });
+    Eval::<F> { p, wo, wi, out, range: whole..n, family: PhantomData }.run::<f32>();
 }
 
-/// Samples one model, in lanes as far as they are filled. `S` and `V` are the model over `f32` and over lanes.
+/// Samples one model, in lanes as far as they are filled.
 #[inline(never)]
-pub(crate) fn draw<S: Model<f32> + Bsdf<f32>, V: Model<L> + Bsdf<L>>(
+pub(crate) fn draw<F: Family>(
     p: &ParamColumns<'_>,
     wo: &DirColumns<'_>,
     u: &[&[f32]; 3],
@@ -192,69 +209,6 @@ pub(crate) fn draw<S: Model<f32> + Bsdf<f32>, V: Model<L> + Bsdf<L>>(
 ) {
     let n = out.density.len();
     let whole = n - n % WIDTH;
-    kernel::draw::<V>(p, wo, u, out, 0..whole);
-    sample_model::<f32, S>(p, wo, u, out, whole..n);
-}
-
-/// Kernels for the vector units, chosen at run time: the only place of this crate that needs `unsafe`.
-mod kernel {
-    use super::{
-        Bsdf, DirColumns, EvalColumns, L, Model, ParamColumns, Range, SampleColumns, eval_model, sample_model,
-    };
-
-    #[cfg(target_arch = "x86_64")]
-    #[target_feature(enable = "avx2")]
-    fn eval_avx2<V: Model<L> + Bsdf<L>>(
-        p: &ParamColumns<'_>,
-        wo: &DirColumns<'_>,
-        wi: &DirColumns<'_>,
-        out: &mut EvalColumns<'_>,
-        range: Range,
-    ) {
-        eval_model::<L, V>(p, wo, wi, out, range);
-    }
-
-    #[cfg(target_arch = "x86_64")]
-    #[target_feature(enable = "avx2")]
-    fn draw_avx2<V: Model<L> + Bsdf<L>>(
-        p: &ParamColumns<'_>,
-        wo: &DirColumns<'_>,
-        u: &[&[f32]; 3],
-        out: &mut SampleColumns<'_>,
-        range: Range,
-    ) {
-        sample_model::<L, V>(p, wo, u, out, range);
-    }
-
-    pub(super) fn eval<V: Model<L> + Bsdf<L>>(
-        p: &ParamColumns<'_>,
-        wo: &DirColumns<'_>,
-        wi: &DirColumns<'_>,
-        out: &mut EvalColumns<'_>,
-        range: Range,
-    ) {
-        #[cfg(target_arch = "x86_64")]
-        if std::arch::is_x86_feature_detected!("avx2") {
-            // SAFETY: the processor has AVX2, which is all that the kernel asks for.
-            #[allow(unsafe_code, reason = "calling a kernel compiled for a feature found at run time")]
-            return unsafe { eval_avx2::<V>(p, wo, wi, out, range) };
-        }
-        eval_model::<L, V>(p, wo, wi, out, range);
-    }
-
-    pub(super) fn draw<V: Model<L> + Bsdf<L>>(
-        p: &ParamColumns<'_>,
-        wo: &DirColumns<'_>,
-        u: &[&[f32]; 3],
-        out: &mut SampleColumns<'_>,
-        range: Range,
-    ) {
-        #[cfg(target_arch = "x86_64")]
-        if std::arch::is_x86_feature_detected!("avx2") {
-            // SAFETY: the processor has AVX2, which is all that the kernel asks for.
-            #[allow(unsafe_code, reason = "calling a kernel compiled for a feature found at run time")]
-            return unsafe { draw_avx2::<V>(p, wo, u, out, range) };
-        }
-        sample_model::<L, V>(p, wo, u, out, range);
-    }
+    in_lanes(Draw::<F> { p, wo, u, out, range: 0..whole, family: PhantomData });
+    Draw::<F> { p, wo, u, out, range: whole..n, family: PhantomData }.run::<f32>();
 }

@@ -92,7 +92,7 @@ impl<R: Real> Ggx<R> {
 
     /// [`sample_visible`](Self::sample_visible) by the older construction: a disk seen from `wo`, its lower half
     /// squeezed. `u[0]` is the squared radius, `u[1]` the angle. [Heitz2018, sec. 4]
-    #[inline(never)]
+    #[inline(always)]
     pub fn sample_visible_disk(&self, wo: LocalDir<R>, u: [R; 2]) -> LocalDir<R> {
         let w = vec3(self.alpha_x * wo.x(), self.alpha_y * wo.y(), wo.z()).normalized();
         let len2 = w.x.sqr() + w.y.sqr();

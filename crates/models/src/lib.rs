@@ -33,7 +33,6 @@
 //! # Ok::<(), &str>(())
 //! ```
 
-#[cfg(feature = "batch")]
 pub mod batch;
 mod bsdf;
 mod coat;

@@ -121,8 +121,17 @@ macro_rules! models {
             }
         }
 
+        /// The models without their number type.
+        mod family {
+            $(
+                pub(super) struct $Variant;
+                impl $crate::batch::Family for $Variant {
+                    type Of<R: sparrow_math::Real> = super::$module::$Type<R>;
+                }
+            )*
+        }
+
         /// One match for a whole batch; the loops are monomorphic.
-        #[cfg(feature = "batch")]
         impl $Kind {
             pub(crate) fn eval_columns(
                 self,
@@ -131,9 +140,8 @@ macro_rules! models {
                 wi: &$crate::batch::DirColumns<'_>,
                 out: &mut $crate::batch::EvalColumns<'_>,
             ) {
-                use $crate::batch::{L, eval};
-                match self {
-                    $( $Kind::$Variant => eval::<$module::$Type<f32>, $module::$Type<L>>(p, wo, wi, out), )*
+                                match self {
+                    $( $Kind::$Variant => $crate::batch::eval::<family::$Variant>(p, wo, wi, out), )*
                 }
             }
             pub(crate) fn sample_columns(
@@ -143,9 +151,8 @@ macro_rules! models {
                 u: &[&[f32]; 3],
                 out: &mut $crate::batch::SampleColumns<'_>,
             ) {
-                use $crate::batch::{L, draw};
-                match self {
-                    $( $Kind::$Variant => draw::<$module::$Type<f32>, $module::$Type<L>>(p, wo, u, out), )*
+                                match self {
+                    $( $Kind::$Variant => $crate::batch::draw::<family::$Variant>(p, wo, u, out), )*
                 }
             }
         }

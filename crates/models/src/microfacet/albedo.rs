@@ -96,7 +96,7 @@ impl AlbedoTable {
     }
 
     /// `E(mu, alpha)`, `mu` in [0, 1], `alpha` in [0, 1].
-    #[inline(never)]
+    #[inline(always)]
     pub fn albedo<R: Real>(&self, mu: R, alpha: R) -> R {
         let alpha = alpha.max(R::of(1e-4));
         let t = (mu * (R::ONE + alpha) / (mu + alpha)).min(R::ONE) * R::of((N_T - 1) as f64);
@@ -114,7 +114,7 @@ impl AlbedoTable {
     }
 
     /// `2 int E(mu, alpha) mu dmu`
-    #[inline(never)]
+    #[inline(always)]
     pub fn mean<R: Real>(&self, alpha: R) -> R {
         let (row, fa) = place(alpha.max(R::of(1e-4)).sqrt() * R::of((N_MEAN - 1) as f64), N_MEAN);
         let mut ends = [[0.0; WIDEST]; 2];

@@ -22,7 +22,7 @@ fn integral<R: Real>(x: R, sin: R, cos: R) -> (R, R) {
 /// The slope along x below which the share `u` of what is visible lies.
 ///
 /// Six steps of Halley's rule, kept within brackets; error below 1e-9 in double precision.
-#[inline(never)]
+#[inline(always)]
 pub fn visible_slope<R: Real>(sin: R, cos: R, u: R) -> R {
     let two = R::of(2.0);
     let cot = (cos / sin.max(R::of(1e-6))).min(R::of(6.0));
@@ -54,7 +54,7 @@ pub fn visible_slope<R: Real>(sin: R, cos: R, u: R) -> R {
 }
 
 /// A normal among those visible from `wo`, which lies above; `u[0]` for the slope towards the view.
-#[inline(never)]
+#[inline(always)]
 pub(super) fn sample_visible<R: Real>(alpha_x: R, alpha_y: R, wo: LocalDir<R>, u: [R; 2]) -> LocalDir<R> {
     let w = vec3(alpha_x * wo.x(), alpha_y * wo.y(), wo.z()).normalized();
     let sin = (w.x * w.x + w.y * w.y).sqrt();

@@ -129,7 +129,7 @@ impl<R: Real> Ndf<R> {
         }
     }
     /// [`d`](Self::d) of all but GGX: not inlined, to keep builds short.
-    #[inline(never)]
+    #[inline(always)]
     fn d_other(&self, m: LocalDir<R>) -> R {
         let z2 = m.z().sqr().max(R::of(1e-12));
         let s = (m.x() / self.alpha_x).sqr() + (m.y() / self.alpha_y).sqr();
@@ -186,7 +186,7 @@ impl<R: Real> Ndf<R> {
     }
 
     /// A normal with density `D(m) cos theta_m`; `u[0]` for the polar angle.
-    #[inline(never)]
+    #[inline(always)]
     pub fn sample(&self, u: [R; 2]) -> LocalDir<R> {
         let (sin_phi, cos_phi) = (R::of(2.0 * PI) * u[1]).sin_cos();
         let rest = (R::ONE - u[0]).max(R::of(1e-12));

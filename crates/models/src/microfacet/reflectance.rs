@@ -98,7 +98,7 @@ impl<R: Real> Reflectance<R> {
 
     /// The mean of [`at`](Self::at) over the hemisphere, weighted with the cosine; closed where it can be, else by
     /// Gauss's rule with 12 points (error 1e-3 for dielectrics, whose curve has a root at grazing angles).
-    #[inline(never)]
+    #[inline(always)]
     pub fn average(&self) -> Spectrum<R> {
         let (a, b) = (self.a, self.b);
         match self.kind {

@@ -17,7 +17,7 @@ pub(super) fn ggx<R: Real>(mu: R, s: R) -> R {
 }
 
 /// Beckmann: `Lambda = e^(-c^2) / 2 (1 / (c sqrt(pi)) - erfcx(c))`, `c = mu / s`. [Walter2007, sec. 5.2]
-#[inline(never)]
+#[inline(always)]
 pub(super) fn beckmann<R: Real>(mu: R, s: R) -> R {
     // Beyond c = 9 it is below 1e-36.
     let c = (mu / s.max(R::of(1e-18))).min(R::of(9.0));
@@ -30,7 +30,7 @@ pub(super) fn beckmann<R: Real>(mu: R, s: R) -> R {
 /// With slope `q = r cot psi`, `r = sqrt(g - 1)`, and slopes counted in widths,
 /// `c Lambda = k / sin psi_0 int_0^psi_0 sin(psi_0 - psi) sin^(2g-4) psi dpsi`, `tan psi_0 = r / c`. Substituting
 /// `psi = psi_0 v^(4/(2g-3))` turns the power at 0 into `v^3`, which stands in the weights.
-#[inline(never)]
+#[inline(always)]
 pub(super) fn student_t<R: Real>(mu: R, s: R, g: R) -> R {
     let two = R::of(2.0);
     let r2 = g - R::ONE;

@@ -11,7 +11,7 @@ use sparrow_math::elementary::poly;
 ///
 /// Polynomial in `(x - 3) / (x + 3)` for `(1 + 2 x) erfcx(x)`, the form of [ShepherdLaframboise1981], with coefficients
 /// fitted by us to 50 digits; largest relative error in double precision 6e-16.
-#[inline(never)]
+#[inline(always)]
 pub fn erfcx<R: Real>(x: R) -> R {
     let three = R::of(3.0);
     let t = (x - three) / (x + three);
@@ -50,7 +50,7 @@ pub fn erfcx<R: Real>(x: R) -> R {
 /// The `x` below which a share `v` of the weight `e^(-x^2) / sqrt(pi)` lies, `erfinv(2 v - 1)`; `v` in [0, 1].
 ///
 /// Start value [Giles2012, table 5], then one step of Halley's rule. `v` within 1e-12 of the ends counts as 1e-12.
-#[inline(never)]
+#[inline(always)]
 pub fn gauss_quantile<R: Real>(v: R) -> R {
     let p = v.min(R::ONE - v).max(R::of(1e-12));
     let x = R::ONE - p - p;
@@ -157,7 +157,7 @@ fn stirling_rest<R: Real>(x: R) -> R {
 /// Euler's beta function `B(p, q)` for `p, q >= 1`. [AbramowitzStegun, 6.2.2]
 ///
 /// Both arguments are raised by 6 and Stirling's formula is taken there, with the large logarithms cancelled by hand.
-#[inline(never)]
+#[inline(always)]
 pub fn beta<R: Real>(p: R, q: R) -> R {
     let (mut p, mut q) = (p, q);
     let mut lifted = R::ONE;
@@ -180,7 +180,7 @@ pub fn beta<R: Real>(p: R, q: R) -> R {
 /// `Gamma(g - 1/2) / Gamma(g)` for `g > 1/2`; relative error below 1e-11.
 ///
 /// Raised by 12, then the asymptotic series of the ratio. [TricomiErdelyi1951, eq. 1]
-#[inline(never)]
+#[inline(always)]
 pub fn gamma_ratio<R: Real>(g: R) -> R {
     let half = R::of(0.5);
     let mut up = R::ONE;

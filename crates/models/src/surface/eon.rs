@@ -141,8 +141,9 @@ impl<R: Real> Eon<R> {
     #[inline(always)]
     fn multiple(&self, o: LocalDir<R>, i: LocalDir<R>) -> Spectrum<R> {
         let A = R::ONE / (R::ONE + R::of(K1) * self.r);
-        let lost = |w: LocalDir<R>| R::of(K1) - fujii_g(w) * R::of(FRAC_1_PI);
-        let shape = A * self.r * lost(o).max(R::ZERO) * lost(i).max(R::ZERO) * R::of(1.0 / (K1 - K2));
+        let lost_o = R::of(K1) - fujii_g(o) * R::of(FRAC_1_PI);
+        let lost_i = R::of(K1) - fujii_g(i) * R::of(FRAC_1_PI);
+        let shape = A * self.r * lost_o.max(R::ZERO) * lost_i.max(R::ZERO) * R::of(1.0 / (K1 - K2));
         let E_avg = A * (R::ONE + R::of(K2) * self.r);
         self.reflectance.map(
             #[inline(always)]

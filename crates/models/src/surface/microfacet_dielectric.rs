@@ -95,7 +95,7 @@ impl<R: Real> MicrofacetDielectric<R> {
     ///
     /// Not inlined: with all its choices in every number type it would take minutes to build.
     #[allow(non_snake_case, reason = "names of the formula")]
-    #[inline(never)]
+    #[inline(always)]
     fn value_and_density(&self, o: LocalDir<R>, i: LocalDir<R>, m: LocalDir<R>, eta: R) -> (R, R) {
         let reflects = i.above();
         let (o_dot_m, i_dot_m) = (o.dot(m), i.dot(m));
@@ -138,7 +138,7 @@ impl<R: Real> Bsdf<R> for MicrofacetDielectric<R> {
         (Spectrum::splat(f * i.abs_cos_theta()).only_where(there), pdf.only_where(there))
     }
 
-    #[inline(never)]
+    #[inline(always)]
     fn sample(&self, wo: LocalDir<R>, u: Uniforms<R>) -> BsdfSample<R> {
         let eta = self.eta_from(wo);
         let o = raised(wo, wo);

@@ -121,7 +121,7 @@ impl<R: Real> MicrofacetReflection<R> {
     }
     /// The diffuse lobe `F_ms (1 - E(o)) (1 - E(i)) / (pi (1 - E_avg))`, with
     /// `F_ms = F_avg^2 E_avg / (1 - F_avg (1 - E_avg))`. [KullaConty2017]
-    #[inline(never)]
+    #[inline(always)]
     fn kulla_conty(&self, table: &AlbedoTable, lost_o: R, i: LocalDir<R>) -> Spectrum<R> {
         let lost_i = R::ONE - self.kept(table, i.cos_theta());
         let kept = table.mean(self.facets.ndf().mean_width());
@@ -140,7 +140,7 @@ impl<R: Real> Opaque for MicrofacetReflection<R> {
 
     // Not inlined, like `draw`: with all its choices in every number type it would take minutes to build.
     #[allow(non_snake_case, reason = "names of the formula")]
-    #[inline(never)]
+    #[inline(always)]
     fn eval(&self, o: LocalDir<R>, i: LocalDir<R>) -> (Spectrum<R>, R) {
         let half = Half::new(o, i);
         let D = self.facets.ndf().d(half.m);
@@ -159,7 +159,7 @@ impl<R: Real> Opaque for MicrofacetReflection<R> {
         }
     }
 
-    #[inline(never)]
+    #[inline(always)]
     fn draw(&self, o: LocalDir<R>, u: Uniforms<R>) -> LocalDir<R> {
         let mirrored = o.reflect(self.facets.sample(o, u.dir));
         match self.energy {

@@ -1,0 +1,127 @@
+//! Lanes against `f32`, bit for bit: every operation of `Real`, over ordinary and awkward numbers.
+
+use sparrow_math::{InLanes, Lanes, Mask, Real, in_lanes};
+
+/// Awkward numbers, each met by each in the second operand.
+const EDGES: [f32; 16] = [
+    0.0,
+    -0.0,
+    1.0,
+    -1.0,
+    0.5,
+    f32::MIN_POSITIVE,
+    1e-40,
+    3.0e38,
+    f32::INFINITY,
+    f32::NEG_INFINITY,
+    f32::NAN,
+    0.999_999_94,
+    1.000_000_1,
+    2.5,
+    -3.5,
+    16_777_216.0,
+];
+
+/// What `Real` can do, of two numbers; comparisons as 0 and 1.
+#[inline(always)]
+fn everything<R: Real>(a: R, b: R) -> [R; 25] {
+    let bit = |m: R::Mask| R::ONE.only_where(m);
+    let (mantissa, exponent) = a.frexp();
+    let (sin, cos) = a.sin_cos();
+    [
+        a + b,
+        a - b,
+        a * b,
+        a / b,
+        -a,
+        a.sqrt(),
+        a.abs(),
+        a.min(b),
+        a.max(b),
+        a.copysign(b),
+        a.fma(b, R::of(0.1)),
+        bit(a.lt(b)),
+        bit(a.le(b)),
+        bit(a.lt(b) | b.lt(a)),
+        bit(a.le(b) & b.le(a)),
+        bit(!a.lt(b)),
+        R::select(a.lt(b), a, b),
+        a.round(),
+        a.clamp(R::of(-20.0), R::of(20.0)).round().pow2(),
+        mantissa,
+        exponent,
+        a.exp(),
+        a.abs().ln(),
+        sin + cos,
+        a.atan2(b),
+    ]
+}
+
+/// Every operation on columns; the results one after another.
+struct Everything<'a>(&'a [f32], &'a [f32]);
+impl InLanes for Everything<'_> {
+    type Output = (usize, Vec<f32>);
+    #[inline(always)]
+    fn run<R: Real>(self) -> (usize, Vec<f32>) {
+        let mut all = vec![0.0; 25 * self.0.len()];
+        for i in (0..self.0.len()).step_by(R::WIDTH) {
+            let results = everything(R::load(self.0, i), R::load(self.1, i));
+            for (k, r) in results.into_iter().enumerate() {
+                r.store(&mut all, k * self.0.len() + i);
+            }
+        }
+        (R::WIDTH, all)
+    }
+}
+
+fn operands() -> (Vec<f32>, Vec<f32>) {
+    let pairs = EDGES.iter().flat_map(|&a| EDGES.iter().map(move |&b| (a, b)));
+    let mut state = 1u64;
+    let random = (0..8192).map(|_| {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        let at = |s: u32| ((state >> s) & 0xffff) as f32 / 2048.0 - 16.0;
+        (at(16), at(40))
+    });
+    pairs.chain(random).unzip()
+}
+
+fn same(a: f32, b: f32) -> bool {
+    a.to_bits() == b.to_bits() || (a.is_nan() && b.is_nan())
+}
+
+#[test]
+fn the_widest_lanes_equal_scalars_bit_for_bit() {
+    let (a, b) = operands();
+    let (width, lanes) = in_lanes(Everything(&a, &b));
+    assert!(width == 1 || width == 8);
+    let (_, portable) = Everything(&a, &b).run::<Lanes<8>>();
+    let (_, scalar) = Everything(&a, &b).run::<f32>();
+    for (k, ((l, p), s)) in lanes.iter().zip(&portable).zip(&scalar).enumerate() {
+        let (operation, i) = (k / a.len(), k % a.len());
+        assert!(same(*l, *s), "operation {operation} of {} and {}: {l}, scalar {s}", a[i], b[i]);
+        assert!(same(*p, *s), "operation {operation} of {} and {}: portable {p}, scalar {s}", a[i], b[i]);
+    }
+}
+
+/// `any`, `all` and `of` of masks.
+struct Masks;
+impl InLanes for Masks {
+    type Output = [bool; 6];
+    #[inline(always)]
+    fn run<R: Real>(self) -> [bool; 6] {
+        let mut column = [0.0; 8];
+        column[R::WIDTH - 1] = 1.0;
+        let last = R::load(&column, 0).gt(R::ZERO);
+        let none = R::ZERO.gt(R::ONE);
+        let wide = R::WIDTH > 1;
+        let of = R::Mask::of;
+        [last.any(), !none.any(), last.all() != wide, (!none).all(), of(true).all(), !of(false).any()]
+    }
+}
+
+#[test]
+fn masks_tell_any_from_all() {
+    assert_eq!(in_lanes(Masks), [true; 6]);
+    assert_eq!(Masks.run::<Lanes<8>>(), [true; 6]);
+    assert_eq!(Masks.run::<f32>(), [true; 6]);
+}
