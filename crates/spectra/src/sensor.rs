@@ -1,11 +1,33 @@
 //! What the film measures: [`Sensor`].
 
+mod camera;
+
 use crate::matrix::{self, Mat3};
-use crate::named::tables;
 use crate::{ColorSpace, DenseSpectrum, Spectrum, Wavelengths, cie, daylight};
 
 /// The sensors with data, by the names scenes use.
-const NAMES: [&str; 4] = ["cie1931", "canon_eos_5d_mkii", "nikon_d5100", "sigma_sd1_merrill"];
+const NAMES: [&str; 20] = [
+    "cie1931",
+    "canon_eos_100d",
+    "canon_eos_1dx_mkii",
+    "canon_eos_200d",
+    "canon_eos_200d_mkii",
+    "canon_eos_5d",
+    "canon_eos_5d_mkii",
+    "canon_eos_5d_mkiii",
+    "canon_eos_5d_mkiv",
+    "canon_eos_5ds",
+    "canon_eos_m",
+    "hasselblad_l1d_20c",
+    "nikon_d5100",
+    "nikon_d810",
+    "nikon_d850",
+    "sigma_sd1_merrill",
+    "sony_ilce_6400",
+    "sony_ilce_7m3",
+    "sony_ilce_7rm3",
+    "sony_ilce_9",
+];
 
 /// A film sensor: three spectral responses, an exposure, and a matrix to the output colour space.
 ///
@@ -20,28 +42,6 @@ pub struct Sensor {
 }
 
 impl Sensor {
-    /// Sensors pbrt-v4 has measurements of and we have not; a scene that asks for one deserves a warning.
-    ///
-    /// For `canon_eos_5d_mkii` we have another laboratory's measurement than pbrt-v4.
-    pub const KNOWN_BUT_MISSING: [&'static str; 16] = [
-        "canon_eos_100d",
-        "canon_eos_1dx_mkii",
-        "canon_eos_200d",
-        "canon_eos_200d_mkii",
-        "canon_eos_5d",
-        "canon_eos_5d_mkiii",
-        "canon_eos_5d_mkiv",
-        "canon_eos_5ds",
-        "canon_eos_m",
-        "hasselblad_l1d_20c",
-        "nikon_d810",
-        "nikon_d850",
-        "sony_ilce_6400",
-        "sony_ilce_7m3",
-        "sony_ilce_7rm3",
-        "sony_ilce_9",
-    ];
-
     /// The sensor of that name, or `None` where there is no data; see [`names`](Self::names).
     ///
     /// `imaging_ratio` multiplies what is measured: exposure time times ISO / 100, one by default.
@@ -60,8 +60,8 @@ impl Sensor {
             let balance = white.map_or(matrix::IDENTITY, |k| adaptation(&daylight(k), space));
             ([cie::x(), cie::y(), cie::z()].map(Clone::clone), balance)
         } else {
-            let bars = camera(name)?;
-            let to_xyz = fitted_to_swatches(&bars, &daylight(white.unwrap_or(6500.0)), space)?;
+            let bars = camera::responses(name)?;
+            let to_xyz = camera::fitted_to_swatches(&bars, &daylight(white.unwrap_or(6500.0)), space)?;
             (bars, to_xyz)
         };
         let to_output = matrix::product(&space.conversions().from_xyz, &to_xyz);
@@ -129,46 +129,6 @@ fn adaptation(light: &DenseSpectrum, space: ColorSpace) -> Mat3 {
         .map_or(matrix::IDENTITY, |back| matrix::product(&back, &matrix::product(&gains, &LMS_FROM_XYZ)))
 }
 
-/// The responses of a camera.
-fn camera(name: &str) -> Option<[DenseSpectrum; 3]> {
-    let all = tables(include_str!("data/cameras.txt"));
-    let find = |channel: &str| {
-        let found = all.iter().find(|t| t.0.strip_suffix(channel).is_some_and(|n| n == name));
-        found.map(|t| DenseSpectrum::from_samples(&t.1))
-    };
-    Some([find("_r")?, find("_g")?, find("_b")?])
-}
-
-/// The matrix from camera RGB to XYZ that fits the patches of a colour chart best, in least squares.
-///
-/// The camera sees the chart under `light`, the observer under the illuminant of `space`.
-fn fitted_to_swatches(bars: &[DenseSpectrum; 3], light: &DenseSpectrum, space: ColorSpace) -> Option<Mat3> {
-    let observer = [cie::x(), cie::y(), cie::z()];
-    let bars = [&bars[0], &bars[1], &bars[2]];
-    let gain = light.inner_product(observer[1]) / light.inner_product(bars[1]);
-    let mut seen_seen = [[0.0; 3]; 3];
-    let mut wanted_seen = [[0.0; 3]; 3];
-    for (_, samples) in tables(include_str!("data/swatches.txt")) {
-        let patch = DenseSpectrum::from_samples(&samples);
-        let seen = projected(&patch, light, bars);
-        let wanted = projected(&patch, space.illuminant(), observer);
-        for i in 0..3 {
-            for j in 0..3 {
-                seen_seen[i][j] += seen[i] * seen[j];
-                wanted_seen[i][j] += gain * wanted[i] * seen[j];
-            }
-        }
-    }
-    Some(matrix::product(&wanted_seen, &matrix::inverse(&seen_seen)?))
-}
-
-/// Three responses to a reflectance under a light, relative to the second response to the light itself.
-fn projected(patch: &DenseSpectrum, light: &DenseSpectrum, bars: [&DenseSpectrum; 3]) -> [f64; 3] {
-    let lit = patch.mul(light);
-    let white = bars[1].inner_product(light);
-    bars.map(|b| b.inner_product(&lit) / white)
-}
-
 #[cfg(test)]
 #[allow(clippy::float_cmp, reason = "equal sums of equal terms")]
 mod tests {
@@ -213,9 +173,6 @@ mod tests {
                 // The matrix is fitted to 24 patches, not to white alone.
                 assert!(off_white(rgb) < 0.04, "{name} {kelvin:?}: {rgb:?}");
             }
-        }
-        for name in Sensor::KNOWN_BUT_MISSING {
-            assert!(Sensor::new(name, ColorSpace::Srgb, 1.0, None).is_none(), "{name} has data now");
         }
     }
 

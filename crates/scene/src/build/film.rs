@@ -95,13 +95,8 @@ impl Builder {
         if Sensor::names().contains(&name) {
             return name.to_string();
         }
-        if Sensor::KNOWN_BUT_MISSING.contains(&name) {
-            let message = format!("the sensor \"{name}\" is not supported yet; \"cie1931\" stands for it");
-            self.report.warn(at, message);
-        } else {
-            let known = Sensor::names().iter().chain(&Sensor::KNOWN_BUT_MISSING).copied();
-            self.report.error(at, format!("there is no sensor \"{name}\"; {}", remedy(name, known)));
-        }
+        let known = Sensor::names().iter().copied();
+        self.report.error(at, format!("there is no sensor \"{name}\"; {}", remedy(name, known)));
         "cie1931".to_string()
     }
 

@@ -4,11 +4,12 @@
     for w in *.whl; do unzip -qo $w -d unpacked; done
     python make.py unpacked
 
+`physlight.txt` is in no package: its values are those of pbrt-v4's sources.
+
 Format: `#` starts a comment, `@name` a table; then (wavelength in nm, value) pairs.
 """
 
 import ast
-import csv
 import pathlib
 import re
 import sys
@@ -101,16 +102,11 @@ def swatches():
 
 
 def cameras():
-    path = SRC / "colour/characterisation/datasets/rawtoaces/CANON_EOS_5DMark_II_RGB_Sensitivities.csv"
-    rows = list(csv.DictReader(path.open()))
-    tables = [(f"canon_eos_5d_mkii_{c}", [(r["wavelength"], r[c.upper()]) for r in rows]) for c in "rgb"]
+    tables = []
     data = literal("colour/characterisation/datasets/cameras/dslr/sensitivities.py", "DATA_CAMERA_SENSITIVITIES_DSLR")
     for key, name in [("Nikon 5100 (NPL)", "nikon_d5100"), ("Sigma SDMerill (NPL)", "sigma_sd1_merrill")]:
         tables += [(f"{name}_{c}", [(l, v[i]) for l, v in sorted(data[key].items())]) for i, c in enumerate("rgb")]
-    write("cameras.txt", [
-        "Spectral sensitivities of cameras, from colour-science 0.4.7: the Canon as published with rawtoaces,",
-        "the Nikon and the Sigma from [Darrodi2015].",
-    ], tables)
+    write("cameras.txt", ["Spectral sensitivities of cameras [Darrodi2015], as tabulated in colour-science 0.4.7."], tables)
 
 
 cie()
