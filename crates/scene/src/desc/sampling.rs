@@ -1,0 +1,82 @@
+//! Sampler and integrator.
+
+use super::LightSamplerName;
+
+/// Names of samplers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SamplerName {
+    /// Uncorrelated numbers.
+    Independent,
+    /// One sample per cell of a grid.
+    Stratified,
+    /// Halton sequence.
+    Halton,
+    /// Sobol sequence over the whole picture.
+    Sobol,
+    /// Two-dimensional Sobol points, shuffled per dimension.
+    PaddedSobol,
+    /// Sobol points along a Morton curve: blue-noise error on the screen.
+    ZSobol,
+    /// Progressive multi-jittered points.
+    Pmj02bn,
+}
+
+/// How a sequence is randomised.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RandomizeName {
+    /// Not at all.
+    None,
+    /// Digits are permuted.
+    PermuteDigits,
+    /// Hashed Owen scrambling.
+    FastOwen,
+    /// Owen scrambling.
+    Owen,
+}
+
+/// A sampler.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SamplerDesc {
+    /// Which.
+    pub name: SamplerName,
+    /// Samples per pixel.
+    pub samples_per_pixel: u32,
+    /// Cells of [`SamplerName::Stratified`] along x and y.
+    pub strata: [u32; 2],
+    /// Jittered within cells.
+    pub jitter: bool,
+    /// Randomisation.
+    pub randomize: RandomizeName,
+    /// The sampler's own seed; overrides the scene's.
+    pub seed: Option<u64>,
+}
+
+/// An integrator.
+#[derive(Clone, Debug, PartialEq)]
+pub struct IntegratorDesc {
+    /// `path` or `directlighting`, after aliases are resolved.
+    pub name: IntegratorName,
+    /// Most scattering events of a path.
+    pub max_depth: u32,
+    /// Light sampler.
+    pub light_sampler: LightSamplerName,
+    /// Widens narrow lobes after the first rough one.
+    pub regularize: bool,
+    /// MIS heuristic, as written: `balance`, `power`.
+    pub mis: String,
+    /// Next-event estimation is used.
+    pub sample_lights: bool,
+    /// Directions drawn from the BSDF find lights.
+    pub sample_bsdf: bool,
+    /// MIS compensation of environment lights.
+    pub mis_compensation: bool,
+}
+
+/// Names of integrators.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum IntegratorName {
+    /// The path tracer.
+    Path,
+    /// Paths with one bounce of light, and specular chains.
+    DirectLighting,
+}
