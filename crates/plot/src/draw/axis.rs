@@ -65,21 +65,22 @@ impl Axis {
         let ticks = ticks::multiples(lo, hi, step).into_iter().map(tick).collect();
         Axis { title: title.to_owned(), lo, hi, scale: Scale::Linear, ticks }
     }
-    /// Logarithmic, both ends above zero and widened to powers of ten, with about `n` ticks.
+    /// Logarithmic, both ends above zero and widened to 1, 2 or 5 times a power of ten, with about `n` ticks.
     pub fn log(title: &str, lo: f64, hi: f64, n: usize) -> Axis {
         let (lo, hi) = if lo > 0.0 && hi >= lo && hi.is_finite() { (lo, hi) } else { (0.1, 1.0) };
-        let (a, mut b) = (ticks::decade_below(lo), ticks::decade_above(hi));
-        if b <= a {
-            b = a + 1;
-        }
-        Axis::log_fixed(title, ticks::pow10(a), ticks::pow10(b), n)
+        let steps = |k: i32| [1.0, 2.0, 5.0, 10.0].map(|m| m * ticks::pow10(k));
+        let below = steps(ticks::decade_below(lo)).into_iter().rev().find(|v| *v <= lo * (1.0 + 1e-9));
+        let above = steps(ticks::decade_below(hi)).into_iter().find(|v| *v >= hi * (1.0 - 1e-9));
+        let (lo, hi) = (below.unwrap_or(lo), above.unwrap_or(hi));
+        let hi = if hi < 1.9 * lo { 10.0 * lo } else { hi };
+        Axis::log_fixed(title, lo, hi, n)
     }
     /// The same, the range left as it is, which is positive and not empty.
     pub fn log_fixed(title: &str, lo: f64, hi: f64, n: usize) -> Axis {
         let tick = |k: i32| Tick { at: ticks::pow10(k), label: ticks::decade_label(k) };
         let mut ticks: Vec<Tick> = ticks::decades(lo, hi, n).into_iter().map(tick).collect();
-        if ticks.len() < 2 {
-            // Less than two decades: 1, 2 and 5 of each.
+        if ticks.len() < 3 && hi / lo < 1000.0 {
+            // Few decades: 1, 2 and 5 of each.
             let (a, b) = (ticks::decade_below(lo), ticks::decade_above(hi));
             let numbers = (a..=b).flat_map(|k| [1.0, 2.0, 5.0].map(|m| m * ticks::pow10(k)));
             let within = numbers.filter(|v| *v >= lo * (1.0 - 1e-9) && *v <= hi * (1.0 + 1e-9));
@@ -136,11 +137,12 @@ mod tests {
     #[test]
     fn decades_cover_the_range() {
         let a = Axis::log("", 3e-3, 42.0, 8);
-        assert!((a.lo - 1e-3).abs() < 1e-15 && (a.hi - 100.0).abs() < 1e-9 && a.ticks.len() == 6);
-        assert!((a.place(1e-3)).abs() < 1e-12 && (a.place(100.0) - 1.0).abs() < 1e-12);
+        assert!((a.lo - 2e-3).abs() < 1e-15 && (a.hi - 50.0).abs() < 1e-9 && a.ticks.len() == 4, "{a:?}");
+        assert!((a.place(2e-3)).abs() < 1e-12 && (a.place(50.0) - 1.0).abs() < 1e-12);
         assert!(a.place(0.0) < -1.0);
         assert!((a.at(a.place(0.37)) - 0.37).abs() < 1e-12);
-        assert!(Axis::log_fixed("", 0.01, 0.7, 8).ticks.len() >= 2);
+        assert_eq!(Axis::log_fixed("", 0.01, 0.7, 8).ticks.len(), 6);
+        assert_eq!(Axis::log("", 0.09, 2.6, 8).ticks.len(), 7);
     }
 
     #[test]

@@ -4,7 +4,7 @@ use super::axis::{Axis, Scale};
 use super::page::{Area, Page};
 use super::simplify::simplify;
 use super::svg::{Anchor, Pen, Point, Svg, Type};
-use super::theme::size;
+use super::theme::{size, stroke};
 
 /// A line through points.
 #[derive(Clone, Debug)]
@@ -46,8 +46,8 @@ impl Cartesian {
     pub fn svg(&self) -> String {
         let (mut svg, area) = self.page.begin();
         let top = if self.rules.is_empty() { 12.0 } else { 30.0 };
-        let plot = area.within([96.0, top, 36.0, 66.0]);
-        axes(&mut svg, &self.page, plot, &self.x, &self.y);
+        let plot = area.within([104.0, top, 36.0, 66.0]);
+        axes(&mut svg, &self.page, plot, [&self.x, &self.y], true);
         let theme = &self.page.theme;
         let at = |p: [f64; 2]| to_page(plot, &self.x, &self.y, p);
         for rule in &self.rules {
@@ -61,10 +61,11 @@ impl Cartesian {
             let (colour, dash) = theme.series(line.series);
             for run in line.points.split(|p| !(p[0].is_finite() && p[1].is_finite())) {
                 let points: Vec<Point> = run.iter().map(|p| at(*p)).map(|p| near(p, plot)).collect();
-                svg.polyline(&simplify(&points, 0.15), Pen::new(colour, 3.0).dashed(dash));
+                let pen = Pen::new(colour, stroke(line.series, self.lines.len())).dashed(dash);
+                svg.polyline(&simplify(&points, 0.15), pen);
             }
         }
-        svg.end_clip();
+        svg.end_group();
         self.draw_spikes(&mut svg, plot);
         svg.finish(&self.page.title)
     }
@@ -97,8 +98,8 @@ fn near(p: Point, plot: Area) -> Point {
     [p[0], p[1].clamp(plot.y - 400.0, plot.y + plot.h + 400.0)]
 }
 
-/// Grid, frame, ticks and titles around a plot.
-pub(super) fn axes(svg: &mut Svg, page: &Page, plot: Area, x: &Axis, y: &Axis) {
+/// Grid where wanted, frame, ticks and titles around a plot.
+pub(super) fn axes(svg: &mut Svg, page: &Page, plot: Area, [x, y]: [&Axis; 2], gridded: bool) {
     let theme = &page.theme;
     let (right, bottom) = (plot.x + plot.w, plot.y + plot.h);
     let grid = Pen::new(theme.grid, 1.0);
@@ -110,7 +111,9 @@ pub(super) fn axes(svg: &mut Svg, page: &Page, plot: Area, x: &Axis, y: &Axis) {
     }
     for tick in &y.ticks {
         let h = bottom - plot.h * y.place(tick.at);
-        svg.line([plot.x, h], [right, h], grid);
+        if gridded {
+            svg.line([plot.x, h], [right, h], grid);
+        }
         svg.line([plot.x - 7.0, h], [plot.x, h], Pen::new(theme.ink, 1.5));
         let style = Type::new(size::TICK, theme.ink).anchor(Anchor::End);
         svg.text([plot.x - 12.0, h + 0.35 * size::TICK], style, &tick.label);
@@ -119,7 +122,9 @@ pub(super) fn axes(svg: &mut Svg, page: &Page, plot: Area, x: &Axis, y: &Axis) {
     let every = (x.ticks.len() as f64 * 46.0 / plot.w).ceil().max(1.0) as usize;
     for (i, tick) in x.ticks.iter().enumerate() {
         let at = plot.x + plot.w * x.place(tick.at);
-        svg.line([at, plot.y], [at, bottom], grid);
+        if gridded {
+            svg.line([at, plot.y], [at, bottom], grid);
+        }
         svg.line([at, bottom], [at, bottom + 7.0], Pen::new(theme.ink, 1.5));
         if i % every == 0 {
             let style = Type::new(size::TICK, theme.ink).anchor(Anchor::Middle);

@@ -26,6 +26,9 @@ pub fn from_disc([x, y]: [f64; 2]) -> Option<[f64; 2]> {
     (r <= 1.0).then(|| [2.0 * Real::asin(r / SQRT_2), Real::atan2(y, x)])
 }
 
+/// Rim of white letters upon any colour of the map.
+const SHADOW: &str = "#1c1030";
+
 /// One hemisphere.
 #[derive(Clone, Debug)]
 pub struct DiscPanel {
@@ -77,16 +80,16 @@ impl Discs {
         svg.rect([centre[0] - radius, centre[1] - radius], [2.0 * radius; 2], theme.blank);
         let area = Area { x: centre[0] - radius, y: centre[1] - radius, w: 2.0 * radius, h: 2.0 * radius };
         panel.grid.draw(svg, &self.colour, area);
-        svg.end_clip();
+        svg.end_group();
         for theta in [30.0, 60.0] {
             let r = radius * equal_area(f64::to_radians(theta), 0.0)[0];
             svg.circle(centre, r, Pen::new("#ffffff", 1.0).dashed("3 3"));
             let p = at(equal_area(f64::to_radians(theta), f64::to_radians(-67.5)));
-            svg.text(p, Type::new(size::NOTE, theme.ink).halo(theme.background), &format!("{theta}°"));
+            svg.text(p, Type::new(size::NOTE, "#ffffff").halo(SHADOW), &format!("{theta}°"));
         }
         let points: Vec<Point> = panel.points.iter().map(|p| at(*p)).collect();
         if !points.is_empty() {
-            svg.dots(&points, if points.len() > 700 { 1.7 } else { 2.3 }, "#ffffff", "#000000");
+            svg.dots(&points, if points.len() > 1000 { 1.5 } else { 2.1 }, "#ffffff", SHADOW);
         }
         svg.circle(centre, radius, Pen::new(theme.ink, 1.5));
         for (phi, anchor) in
@@ -101,7 +104,7 @@ impl Discs {
             let p = at(*place);
             svg.circle(p, 7.0, Pen::new("#000000", 4.5));
             svg.circle(p, 7.0, Pen::new("#ff5a36", 2.5));
-            let style = Type::new(size::TICK, theme.ink).bold().halo(theme.background);
+            let style = Type::new(size::AXIS, "#ffffff").bold().halo(SHADOW);
             svg.text([p[0] + 13.0, p[1] - 8.0], style, label);
         }
     }

@@ -10,7 +10,7 @@ use super::svg::{Anchor, Pen, Point, Svg, Type, text_width};
 use super::theme::size;
 
 /// Steps of colour that are told apart.
-const STEPS: usize = 96;
+const STEPS: usize = 64;
 
 /// Numbers over a grid of cells.
 #[derive(Clone, Debug)]
@@ -87,7 +87,7 @@ impl Heat {
             }
             svg.rect([plot.x, plot.y], [plot.w, plot.h], self.page.theme.blank);
             panel.grid.draw(&mut svg, &self.colour, plot);
-            axes(&mut svg, &self.page, plot, &self.x, &self.y);
+            axes(&mut svg, &self.page, plot, [&self.x, &self.y], false);
         }
         colour_bar(&mut svg, &self.page, area, &self.colour);
         svg.finish(&self.page.title)

@@ -145,7 +145,9 @@ impl Space {
         for pointer in &body.pointers {
             let colour = pointer.series.map_or(self.page.theme.ink, |i| self.page.theme.series(i).0);
             for i in 0..PIECES {
-                let ends = [i, i + 1].map(|k| pointer.tip * (k as f64 / PIECES as f64 * 0.97));
+                // A little too long, so that no gap shows.
+                let at = |k: f64| pointer.tip * (k / PIECES as f64 * 0.96);
+                let ends = [at(i as f64), at(i as f64 + 1.2)];
                 let nearness = ((ends[0] + ends[1]) * 0.5).dot(view.to_eye);
                 items.push((nearness, Item::Segment { ends, colour }));
             }
@@ -155,6 +157,7 @@ impl Space {
 
     fn draw_items(&self, svg: &mut Svg, view: &View, items: &[(f64, Item<'_>)]) {
         let light = (view.to_eye + view.up * 0.9 - view.right * 0.6).normalized();
+        svg.begin_solid();
         for (_, item) in items {
             match item {
                 Item::Facet(facet) => {
@@ -166,10 +169,11 @@ impl Space {
                     svg.facet(&facet.corners.map(|p| view.at(p)), &colour);
                 }
                 Item::Segment { ends, colour } => {
-                    svg.line(view.at(ends[0]), view.at(ends[1]), Pen::new(colour, 2.5));
+                    svg.edge(view.at(ends[0]), view.at(ends[1]), Pen::new(colour, 2.5));
                 }
             }
         }
+        svg.end_group();
     }
 
     /// The plane as a disc, with the directions x and y.

@@ -149,7 +149,7 @@ mod tests {
             assert_eq!(p.len(), n);
             p.iter().filter(|a| a.y <= 0.0).count()
         };
-        assert_eq!([columns(1), columns(2), columns(3), columns(4), columns(6)], [1, 2, 3, 4, 4]);
+        assert_eq!([columns(1), columns(2), columns(3), columns(4), columns(6)], [1, 2, 3, 4, 3]);
     }
 
     #[test]

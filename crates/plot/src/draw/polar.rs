@@ -6,7 +6,7 @@ use super::axis::{Axis, Scale};
 use super::page::Page;
 use super::simplify::simplify;
 use super::svg::{Anchor, Pen, Point, Svg, Type, text_width};
-use super::theme::size;
+use super::theme::{size, stroke};
 
 /// A lobe: a length for every angle.
 #[derive(Clone, Debug)]
@@ -79,16 +79,19 @@ impl Polar {
             Disc { centre: [plot.x + 0.5 * plot.w, plot.y + 0.5 * (plot.h + radius)], radius }
         };
         self.draw_grid(&mut svg, disc);
+        for ray in self.rays.iter().filter(|r| r.faint) {
+            self.draw_ray(&mut svg, disc, ray);
+        }
         svg.clip_circle(disc.centre, disc.radius);
         for lobe in &self.lobes {
             self.draw_lobe(&mut svg, disc, lobe);
         }
-        svg.end_clip();
+        svg.end_group();
         self.draw_surface(&mut svg, disc);
         for lobe in &self.lobes {
             self.draw_spikes(&mut svg, disc, lobe);
         }
-        for ray in &self.rays {
+        for ray in self.rays.iter().filter(|r| !r.faint) {
             self.draw_ray(&mut svg, disc, ray);
         }
         svg.finish(&self.page.title)
@@ -167,7 +170,7 @@ impl Polar {
             let mut filled = points.clone();
             filled.push(disc.centre);
             svg.area(&filled, colour, 0.1);
-            svg.polyline(&points, Pen::new(colour, 3.0).dashed(dash));
+            svg.polyline(&points, Pen::new(colour, stroke(lobe.series, self.lobes.len())).dashed(dash));
         }
     }
 

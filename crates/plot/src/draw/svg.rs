@@ -139,12 +139,23 @@ impl Svg {
             Num(opacity)
         ));
     }
-    /// A facet: an area whose border has its colour too, so that no seam shows between neighbours.
+    /// What follows are pieces of a solid, until [`end_group`](Self::end_group).
+    pub fn begin_solid(&mut self) {
+        self.put(format_args!("<g transform=\"scale(.1)\" stroke-width=\"6\">"));
+    }
+    /// A facet of a solid: an area whose border has its colour too, so that no seam shows between neighbours.
     pub fn facet(&mut self, points: &[Point], fill: &str) {
-        self.put(format_args!(
-            "<path d=\"{}z\" fill=\"{fill}\" stroke=\"{fill}\" stroke-width=\"0.5\"/>",
-            path_of(points)
-        ));
+        self.put(format_args!("<path d=\"{}z\" fill=\"{fill}\" stroke=\"{fill}\"/>", tenths(points)));
+    }
+    /// A line amid facets.
+    pub fn edge(&mut self, a: Point, b: Point, pen: Pen<'_>) {
+        let width = Num(10.0 * pen.width);
+        let d = tenths(&[a, b]);
+        self.put(format_args!("<path d=\"{d}\" stroke=\"{}\" stroke-width=\"{width}\"/>", pen.colour));
+    }
+    /// Ends what was begun.
+    pub fn end_group(&mut self) {
+        self.put(format_args!("</g>"));
     }
     /// A filled rectangle.
     pub fn rect(&mut self, at: Point, size: [f64; 2], fill: &str) {
@@ -167,7 +178,7 @@ impl Svg {
         for [x, y] in centres {
             let _ = write!(path, "M{} {}a{r} {r} 0 1 0 {d} 0a{r} {r} 0 1 0 -{d} 0", Num(x - radius), Num(*y));
         }
-        self.put(format_args!("<path d=\"{path}\" fill=\"{fill}\" stroke=\"{rim}\" stroke-width=\"0.6\"/>"));
+        self.put(format_args!("<path d=\"{path}\" fill=\"{fill}\" stroke=\"{rim}\" stroke-width=\"0.5\" fill-opacity=\"0.9\" stroke-opacity=\"0.5\"/>"));
     }
     /// An arrow; its head ends at `b`.
     pub fn arrow(&mut self, a: Point, b: Point, pen: Pen<'_>) {
@@ -198,7 +209,7 @@ impl Svg {
         if !style.halo.is_empty() {
             let _ = write!(
                 attributes,
-                " stroke=\"{}\" stroke-width=\"4\" stroke-linejoin=\"round\" paint-order=\"stroke\"",
+                " stroke=\"{}\" stroke-width=\"3.5\" stroke-linejoin=\"round\" paint-order=\"stroke\"",
                 style.halo
             );
         }
@@ -207,7 +218,7 @@ impl Svg {
             let _ = write!(attributes, " transform=\"rotate(-90 {x} {y})\"");
         }
         self.put(format_args!(
-            "<text x=\"{x}\" y=\"{y}\" font-size=\"{}\" fill=\"{}\"{attributes}>{}</text>",
+            "<text xml:space=\"preserve\" x=\"{x}\" y=\"{y}\" font-size=\"{}\" fill=\"{}\"{attributes}>{}</text>",
             Num(style.size),
             style.colour,
             spans(text, style.size)
@@ -226,12 +237,12 @@ impl Svg {
         }
         self.put(format_args!("</g>"));
     }
-    /// What follows is cut to a rectangle, until [`end_clip`](Self::end_clip).
+    /// What follows is cut to a rectangle, until [`end_group`](Self::end_group).
     pub fn clip_rect(&mut self, at: Point, size: [f64; 2]) {
         let [x, y, w, h] = [at[0], at[1], size[0], size[1]].map(Num);
         self.clip(&format!("<rect x=\"{x}\" y=\"{y}\" width=\"{w}\" height=\"{h}\"/>"));
     }
-    /// What follows is cut to a circle, until [`end_clip`](Self::end_clip).
+    /// What follows is cut to a circle, until [`end_group`](Self::end_group).
     pub fn clip_circle(&mut self, centre: Point, radius: f64) {
         let [x, y, r] = [centre[0], centre[1], radius].map(Num);
         self.clip(&format!("<circle cx=\"{x}\" cy=\"{y}\" r=\"{r}\"/>"));
@@ -243,10 +254,6 @@ impl Svg {
             "<clipPath id=\"clip{n}\">{shape}</clipPath>\n<g clip-path=\"url(#clip{n})\">"
         ));
     }
-    /// Ends the latest cut.
-    pub fn end_clip(&mut self) {
-        self.put(format_args!("</g>"));
-    }
 }
 
 /// `M x y L x y ..`
@@ -254,6 +261,18 @@ fn path_of(points: &[Point]) -> String {
     let mut d = String::new();
     for (i, [x, y]) in points.iter().enumerate() {
         let _ = write!(d, "{}{} {}", if i == 0 { "M" } else { "L" }, Num(*x), Num(*y));
+    }
+    d
+}
+
+/// Path data in whole tenths of a pixel, each point relative to the one before: short.
+fn tenths(points: &[Point]) -> String {
+    let whole = |v: f64| if v.is_finite() { (10.0 * v).round() as i64 } else { 0 };
+    let (mut d, mut last) = (String::new(), [0, 0]);
+    for (i, p) in points.iter().enumerate() {
+        let [x, y] = p.map(whole);
+        let _ = write!(d, "{}{} {}", if i == 0 { "M" } else { "l" }, x - last[0], y - last[1]);
+        last = [x, y];
     }
     d
 }

@@ -42,6 +42,12 @@ const DASHES: [&str; 3] = ["", "9 5", "2 4"];
 /// More series than this cannot be told apart.
 pub const MAX_SERIES: usize = 21;
 
+/// Width of a series' line among `n`, in pixels: later ones are thinner, so that a line under another still shows.
+pub fn stroke(i: usize, n: usize) -> f64 {
+    let last = n.saturating_sub(1).max(1);
+    if n < 2 { 3.5 } else { 4.6 - 1.8 * i.min(last) as f64 / last as f64 }
+}
+
 impl Theme {
     /// Colour and dash of a series.
     pub fn series(&self, i: usize) -> (&'static str, &'static str) {

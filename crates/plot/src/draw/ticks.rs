@@ -115,7 +115,7 @@ mod tests {
         assert_eq!(multiples(-0.2, 0.4, 0.2).len(), 4);
         assert_eq!(multiples(0.1, 0.7, 0.2).len(), 3);
         assert_eq!(decades(1e-3, 10.0, 8), [-3, -2, -1, 0, 1]);
-        assert_eq!(decades(0.9e-3, 10.0, 2), [-2, 0]);
+        assert_eq!(decades(0.9e-3, 10.0, 2), [-3, 0]);
         assert_eq!(decades(2.0, 3.0, 8), [0; 0]);
     }
 

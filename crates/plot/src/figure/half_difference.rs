@@ -12,6 +12,8 @@ use crate::series::{Labels, Series};
 
 /// Cells along each axis: one for every degree.
 const CELLS: usize = 90;
+/// Cells along each axis that choose the range of colours.
+const CALM: usize = 80;
 /// Decades that colours show below the greatest value.
 const DECADES: i32 = 5;
 
@@ -84,7 +86,10 @@ pub(super) fn figure(series: &[Series], o: &Options) -> Figure {
 
 /// Logarithmic where it was asked for, or where values span more than a decade and a half.
 fn colour_axis(title: &str, grids: &[Vec<f64>], log: bool) -> Axis {
-    let all = || grids.iter().flatten().copied().filter(|v| v.is_finite() && *v > 0.0);
+    // Towards grazing some models grow without limit; what exceeds the rest there gets the last colour.
+    let calm = |k: usize| k % CELLS < CALM && k / CELLS < CALM;
+    let cells = || grids.iter().flat_map(|g| g.iter().copied().enumerate());
+    let all = || cells().filter(|(k, v)| calm(*k) && v.is_finite() && *v > 0.0).map(|(_, v)| v);
     let (lo, hi) = (all().fold(f64::INFINITY, f64::min), all().fold(0.0, f64::max));
     if hi > 0.0 && (log || hi / lo > 30.0) {
         Axis::log(title, lo.max(hi / pow10(DECADES)), hi, 8)

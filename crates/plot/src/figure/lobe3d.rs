@@ -2,7 +2,7 @@
 
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use sparrow_math::LocalDir;
+use sparrow_math::{Frame, LocalDir, Real};
 
 use super::delta::deltas;
 use super::options::Options;
@@ -15,28 +15,28 @@ use crate::series::{Labels, Series};
 
 /// Decades that logarithmic lengths show below the greatest value.
 const DECADES: i32 = 3;
-/// Directions at which values are asked for before lines are placed: over the polar angle of one side, over the azimuth.
-const PROBES: [usize; 2] = [180, 360];
+/// Directions at which values are asked for before lines are placed: away from the normal or the peak, and around.
+const PROBES: [usize; 2] = [120, 360];
 
-/// Values over a net of directions whose lines crowd where the lobe is narrow.
+/// Values over a net of directions: rays from the peak of the lobe to the horizon, and rings around the peak, both closer
+/// where the lobe is narrow. The horizon is a line of the net.
 struct Net {
-    /// Polar angles in radians, from the normal to the last line.
-    theta: Vec<f64>,
-    /// Azimuths in radians, once around; the last equals the first but for a turn.
-    phi: Vec<f64>,
-    /// A row of values for each polar angle.
-    values: Vec<Vec<f64>>,
+    /// Directions ring by ring, the first all at the peak, the last on the horizon.
+    rings: Vec<Vec<(LocalDir<f64>, f64)>>,
 }
 
 pub(super) fn figure(series: &[Series], o: &Options) -> Figure {
     let below = series.iter().any(|s| s.kind.about().transmits || s.wo_deg[0] > 90.0);
-    let n = [38.0, 76.0].map(|n: f64| (n / (series.len() as f64).sqrt().min(1.8)) as usize);
-    let nets: Vec<Net> = series.iter().map(|s| Net::new(s, o, below, n)).collect();
-    let all = || nets.iter().flat_map(|n| n.values.iter().flatten()).copied().filter(|v| v.is_finite());
+    let n = [38.0, 70.0].map(|n: f64| (n / (series.len() as f64).sqrt().min(1.8)) as usize);
+    let sides: &[f64] = if below { &[1.0, -1.0] } else { &[1.0] };
+    let nets: Vec<Vec<Net>> =
+        series.iter().map(|s| sides.iter().map(|side| Net::new(s, o, *side, n)).collect()).collect();
+    let points = || nets.iter().flatten().flat_map(|n| n.rings.iter().flatten());
+    let all = || points().map(|p| p.1).filter(|v| v.is_finite());
     let hi = all().fold(0.0, f64::max);
     let lo = all().filter(|v| *v > 0.0).fold(f64::INFINITY, f64::min).max(hi / pow10(DECADES));
     let title = format!("{}  [1/sr]", o.quantity.symbol());
-    let colour = if o.log { Axis::log(&title, lo, hi, 8) } else { Axis::linear(&title, 0.0, hi, 6) };
+    let colour = if o.log { Axis::log(&title, lo, hi, 8) } else { Axis::fixed(&title, 0.0, hi, 6) };
     let labels = Labels::new(series);
     let mut table = Table::new([
         "series".to_owned(),
@@ -46,8 +46,9 @@ pub(super) fn figure(series: &[Series], o: &Options) -> Figure {
     ]);
     let mut bodies = Vec::new();
     for ((s, net), own) in series.iter().zip(&nets).zip(&labels.own) {
-        net.list(&s.name(), &mut table);
-        bodies.push(Body { title: own.clone(), facets: net.facets(&colour), pointers: pointers(s), below });
+        net.iter().for_each(|n| n.list(&s.name(), &mut table));
+        let facets = net.iter().flat_map(|n| n.facets(&colour)).collect();
+        bodies.push(Body { title: own.clone(), facets, pointers: pointers(s), below });
     }
     let mut page = page(series, o, &view_of(series), false, panel_size(series.len()));
     if bodies.iter().any(|b| b.pointers.iter().any(|p| p.series.is_some())) {
@@ -74,48 +75,81 @@ fn pointers(s: &Series) -> Vec<Pointer> {
     all
 }
 
+/// The direction in which a value is greatest on one side of the surface; the normal where none stands out.
+fn peak(value: &impl Fn(LocalDir<f64>) -> f64, side: f64) -> LocalDir<f64> {
+    let at = |theta: f64, phi: f64| LocalDir::from_angles(if side > 0.0 { theta } else { PI - theta }, phi);
+    let score = |t: f64, p: f64| Some(value(at(t, p))).filter(|v| v.is_finite()).unwrap_or(0.0);
+    let mut best = [0.0, 0.0, score(0.0, 0.0) * (1.0 + 1e-9)];
+    let step = FRAC_PI_2 / PROBES[0] as f64;
+    // Not to the very horizon, where values may grow without limit.
+    for j in 1..PROBES[0] - 4 {
+        for i in 0..PROBES[1] {
+            let [t, p] = [j as f64 * step, i as f64 / PROBES[1] as f64 * TAU];
+            let v = score(t, p);
+            if v > best[2] {
+                best = [t, p, v];
+            }
+        }
+    }
+    let mut reach = step;
+    while reach > 1e-5 {
+        let [t, p, _] = best;
+        for [dt, dp] in [[1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0]] {
+            let [t, p] = [(t + dt * reach).clamp(0.0, 1.5), p + dp * reach];
+            let v = score(t, p);
+            if v > best[2] {
+                best = [t, p, v];
+            }
+        }
+        reach *= 0.7;
+    }
+    at(best[0], best[1])
+}
+
 impl Net {
-    fn new(s: &Series, o: &Options, below: bool, n: [usize; 2]) -> Net {
+    fn new(s: &Series, o: &Options, side: f64, n: [usize; 2]) -> Net {
         let (model, wo) = (s.model(), s.wo());
-        let value = |theta: f64, phi: f64| o.quantity.of(&model, wo, LocalDir::from_angles(theta, phi));
-        let sides = if below { 2 } else { 1 };
-        let rows = sides * PROBES[0];
-        let (mut over_theta, mut over_phi) = (vec![0.0f64; rows], vec![0.0f64; PROBES[1]]);
-        for (j, most_theta) in over_theta.iter_mut().enumerate() {
-            let theta = (j as f64 + 0.5) / PROBES[0] as f64 * FRAC_PI_2;
-            for (i, most_phi) in over_phi.iter_mut().enumerate() {
-                let v = value(theta, i as f64 / PROBES[1] as f64 * TAU);
+        let value = |w: LocalDir<f64>| o.quantity.of(&model, wo, w);
+        let frame = Frame::from_z(peak(&value, side).v());
+        // From the peak along the azimuth `psi` around it, `u` of the way to the horizon.
+        let at = |psi: f64, u: f64| {
+            let (s, c) = Real::sin_cos(psi);
+            let e = frame.x * c + frame.y * s;
+            let to_horizon = Real::atan2(frame.z.z.abs(), -e.z * side);
+            let (s, c) = Real::sin_cos(u * to_horizon);
+            LocalDir::new(frame.z * c + e * s)
+        };
+        let mut over_u = vec![0.0f64; PROBES[0]];
+        let mut over_psi = vec![0.0f64; PROBES[1]];
+        for (j, most_u) in over_u.iter_mut().enumerate() {
+            for (i, most_psi) in over_psi.iter_mut().enumerate() {
+                let v = value(at(i as f64 / PROBES[1] as f64 * TAU, (j as f64 + 0.5) / PROBES[0] as f64));
                 if v.is_finite() {
-                    *most_theta = most_theta.max(v);
-                    *most_phi = most_phi.max(v);
+                    *most_u = most_u.max(v);
+                    // How far the lobe reaches at this azimuth.
+                    *most_psi += v;
                 }
             }
         }
-        // The surface itself is a line of the net: nothing reaches through it.
-        let mut theta: Vec<f64> = crowded(&over_theta[..PROBES[0]], n[0]);
-        theta.iter_mut().for_each(|t| *t *= FRAC_PI_2);
-        if below {
-            let lower = crowded(&over_theta[PROBES[0]..], n[0]);
-            theta.extend(lower.iter().skip(1).map(|t| FRAC_PI_2 + t * FRAC_PI_2));
-        }
-        let phi: Vec<f64> = crowded(&over_phi, n[1]).iter().map(|t| t * TAU).collect();
-        let row = |t: &f64| {
-            // Just off the surface and the axis, where values are defined.
-            let t = if (*t - FRAC_PI_2).abs() < 1e-9 { FRAC_PI_2 - 1e-4 } else { t.min(PI - 1e-6) };
-            phi.iter().map(|p| value(t, *p)).collect()
+        let around = crowded(&over_psi, n[1]);
+        let ring = |u: &f64| {
+            // Just off the horizon, where values are defined.
+            let u = u.min(1.0 - 1e-5);
+            let point = |t: &f64| at(t * TAU, u);
+            around.iter().map(point).map(|w| (w, value(w))).collect()
         };
-        Net { values: theta.iter().map(row).collect(), theta, phi }
+        Net { rings: crowded(&over_u, n[0]).iter().map(ring).collect() }
     }
 
     fn facets(&self, colour: &Axis) -> Vec<Facet> {
         let corner = |j: usize, i: usize| {
-            let v = self.values[j][i];
+            let (w, v) = self.rings[j][i];
             let length = if v.is_finite() { colour.place(v).clamp(0.0, 1.0) } else { 0.0 };
-            (LocalDir::from_angles(self.theta[j], self.phi[i]).v() * length, length)
+            (w.v() * length, length)
         };
         let mut facets = Vec::new();
-        for j in 1..self.theta.len() {
-            for i in 1..self.phi.len() {
+        for j in 1..self.rings.len() {
+            for i in 1..self.rings[j].len() {
                 let four = [corner(j - 1, i - 1), corner(j - 1, i), corner(j, i), corner(j, i - 1)];
                 let tone = 0.25 * four.iter().map(|c| c.1).sum::<f64>();
                 facets.push(Facet { corners: four.map(|c| c.0), tone });
@@ -125,10 +159,9 @@ impl Net {
     }
 
     fn list(&self, name: &str, table: &mut Table) {
-        for (theta, row) in self.theta.iter().zip(&self.values) {
-            for (phi, v) in self.phi.iter().zip(row) {
-                table.named(name, [theta.to_degrees(), phi.to_degrees(), *v]);
-            }
+        for (w, v) in self.rings.iter().flatten() {
+            let theta = Real::atan2(w.sin2_theta().sqrt(), w.z());
+            table.named(name, [theta.to_degrees(), Real::atan2(w.y(), w.x()).to_degrees(), *v]);
         }
     }
 }

@@ -100,10 +100,11 @@ pub(super) fn polar(series: &[Series], o: &Options) -> Figure {
     let plane = Plane::new(series, o, DECADES[0]);
     let full = plane.curves.full;
     let [lo, hi] = plane.range;
-    let r = if o.log { Axis::log(&plane.title, lo, hi, 6) } else { Axis::linear(&plane.title, 0.0, hi, 5) };
+    let r =
+        if o.log { Axis::log(&plane.title, lo, hi, 6) } else { Axis::fixed(&plane.title, 0.0, 1.08 * hi, 6) };
     let lobes =
         (0..series.len()).map(|i| Lobe { series: i, points: plane.points(i), spikes: plane.spikes(i) });
-    let page = plane_page(series, o, &plane, [960.0, if full { 960.0 } else { 680.0 }]);
+    let page = plane_page(series, o, &plane, [960.0, if full { 940.0 } else { 640.0 }]);
     let figure = Polar { page, r, full, lobes: lobes.collect(), rays: rays(series) };
     Figure { svg: figure.svg(), table: plane.table(series, o.quantity) }
 }
@@ -111,14 +112,16 @@ pub(super) fn polar(series: &[Series], o: &Options) -> Figure {
 /// The viewers, and the mirror images of the views.
 fn rays(series: &[Series]) -> Vec<Ray> {
     let mut rays: Vec<Ray> = Vec::new();
-    for s in series {
+    let apart = several_views(series);
+    for (i, s) in series.iter().enumerate() {
         let theta = s.wo_deg[0];
+        let colour = apart.then_some(i);
         if rays.iter().any(|r| !r.faint && (r.angle + theta).abs() < 1e-9) {
             continue;
         }
-        rays.push(Ray { angle: -theta, label: "ω_{o}".to_owned(), series: None, faint: false });
+        rays.push(Ray { angle: -theta, label: "ω_{o}".to_owned(), series: colour, faint: false });
         if theta > 1.0 {
-            rays.push(Ray { angle: theta, label: String::new(), series: None, faint: true });
+            rays.push(Ray { angle: theta, label: String::new(), series: colour, faint: true });
         }
     }
     rays

@@ -14,10 +14,10 @@ use crate::draw::disc::{DiscPanel, Discs, equal_area, from_disc};
 use crate::draw::heat::Grid;
 use crate::draw::table::Table;
 use crate::draw::ticks::{pow10, short};
-use crate::series::{Labels, Series, direction};
+use crate::series::{Labels, Series};
 
-/// Cells across a disc.
-const CELLS: usize = 160;
+/// Cells across a disc that is alone; less where there are more of them.
+const CELLS: f64 = 128.0;
 
 /// A sample that goes on.
 #[derive(Clone, Copy, Debug)]
@@ -64,8 +64,10 @@ pub(super) fn figure(series: &[Series], o: &Options) -> Figure {
         } else {
             &[false]
         };
+        let discs = series.len() * sides.len();
+        let cells = (CELLS / (discs as f64).sqrt().min(1.8)) as usize;
         for up in sides {
-            panels.push(panel(s, own, *up, both, &drawn));
+            panels.push(panel(s, own, [*up, both], &drawn, density(s, *up, cells)));
         }
     }
     let all = || panels.iter().flat_map(|p| &p.grid.values).copied().filter(|v| v.is_finite());
@@ -98,23 +100,32 @@ fn place(w: LocalDir<f64>, up: bool) -> Option<[f64; 2]> {
     ((w.z() > 0.0) == up).then(|| equal_area(if up { theta } else { PI - theta }, phi))
 }
 
-/// One side of one series.
-fn panel(s: &Series, own: &str, up: bool, both: bool, drawn: &[Drawn]) -> DiscPanel {
+/// The density over the square around a disc.
+fn density(s: &Series, up: bool, cells: usize) -> Grid {
     let (model, wo) = (s.model(), s.wo());
-    let mut values = Vec::with_capacity(CELLS * CELLS);
-    for j in 0..CELLS {
-        for i in 0..CELLS {
-            let at = [i, j].map(|k| 2.0 * (k as f64 + 0.5) / CELLS as f64 - 1.0);
-            let value = from_disc(at).map(|[theta, phi]| {
+    let mut values = Vec::with_capacity(cells * cells);
+    for j in 0..cells {
+        for i in 0..cells {
+            let at = [i, j].map(|k| 2.0 * (k as f64 + 0.5) / cells as f64 - 1.0);
+            // Cells that the rim cuts take the value just inside it.
+            let r = (at[0] * at[0] + at[1] * at[1]).sqrt();
+            let inside = at.map(|x| if r > 0.99 && r < 1.03 { 0.99 * x / r } else { x });
+            let value = from_disc(inside).map(|[theta, phi]| {
                 let theta = if up { theta } else { PI - theta };
-                model.pdf(wo, direction([theta.to_degrees(), phi.to_degrees()]))
+                model.pdf(wo, LocalDir::from_angles(theta, phi))
             });
             values.push(value.unwrap_or(f64::NAN));
         }
     }
+    Grid { nx: cells, ny: cells, values }
+}
+
+/// One side of one series: its samples and marks, over `grid`.
+fn panel(s: &Series, own: &str, [up, both]: [bool; 2], drawn: &[Drawn], grid: Grid) -> DiscPanel {
+    let wo = s.wo();
     let mut marks: Vec<([f64; 2], String)> =
         place(wo, up).map(|p| (p, "ω_{o}".to_owned())).into_iter().collect();
-    for d in deltas(&model, wo) {
+    for d in deltas(&s.model(), wo) {
         marks.extend(place(d.wi, up).map(|p| (p, format!("δ {}", short(d.share)))));
     }
     let side = if up { "above the surface" } else { "below the surface" };
@@ -123,10 +134,5 @@ fn panel(s: &Series, own: &str, up: bool, both: bool, drawn: &[Drawn]) -> DiscPa
         (true, true) => side.to_owned(),
         (false, true) => format!("{own}, {}", if up { "above" } else { "below" }),
     };
-    DiscPanel {
-        title,
-        grid: Grid { nx: CELLS, ny: CELLS, values },
-        points: drawn.iter().filter_map(|d| place(d.wi, up)).collect(),
-        marks,
-    }
+    DiscPanel { title, grid, points: drawn.iter().filter_map(|d| place(d.wi, up)).collect(), marks }
 }
