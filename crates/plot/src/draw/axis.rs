@@ -67,7 +67,7 @@ impl Axis {
     }
     /// Logarithmic, both ends above zero and widened to 1, 2 or 5 times a power of ten, with about `n` ticks.
     pub fn log(title: &str, lo: f64, hi: f64, n: usize) -> Axis {
-        let (lo, hi) = if lo > 0.0 && hi >= lo && hi.is_finite() { (lo, hi) } else { (0.1, 1.0) };
+        let (lo, hi) = if lo > 1e-100 && hi >= lo && hi < 1e100 { (lo, hi) } else { (0.1, 1.0) };
         let steps = |k: i32| [1.0, 2.0, 5.0, 10.0].map(|m| m * ticks::pow10(k));
         let below = steps(ticks::decade_below(lo)).into_iter().rev().find(|v| *v <= lo * (1.0 + 1e-9));
         let above = steps(ticks::decade_below(hi)).into_iter().find(|v| *v >= hi * (1.0 - 1e-9));
@@ -112,9 +112,10 @@ impl Axis {
     }
 }
 
-/// A range that is not empty.
+/// A range that is not empty, and that numbers of a few digits can describe; else 0..1.
 fn sound(lo: f64, hi: f64) -> (f64, f64) {
-    if lo.is_finite() && hi.is_finite() && hi > lo { (lo, hi) } else { (0.0, 1.0) }
+    let wide = hi - lo > 1e-100 && hi - lo > 1e-9 * hi.abs().max(lo.abs());
+    if wide && lo.abs().max(hi.abs()) < 1e100 { (lo, hi) } else { (0.0, 1.0) }
 }
 
 #[cfg(test)]
@@ -147,7 +148,9 @@ mod tests {
 
     #[test]
     fn a_range_that_is_none_is_replaced() {
-        for (lo, hi) in [(0.0, 0.0), (0.0, f64::NAN), (1.0, f64::INFINITY), (-1.0, -2.0)] {
+        for (lo, hi) in
+            [(0.0, 0.0), (0.0, f64::NAN), (1.0, f64::INFINITY), (-1.0, -2.0), (0.0, 1e-300), (0.0, 1e300)]
+        {
             assert!(Axis::linear("", lo, hi, 5).ticks.len() > 1);
             assert!(Axis::log("", lo, hi, 5).ticks.len() > 1);
         }

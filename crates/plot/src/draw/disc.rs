@@ -113,7 +113,7 @@ impl Discs {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use core::f64::consts::{FRAC_PI_2, PI};
+    use core::f64::consts::FRAC_PI_2;
 
     #[test]
     fn areas_are_solid_angles() {
@@ -125,6 +125,6 @@ mod tests {
             let back = from_disc([r[0] * 0.999, r[1] * 0.999]).unwrap();
             assert!((back[0] - t).abs() < 3e-3 && (back[1] - 0.3).abs() < 1e-12);
         }
-        assert!(from_disc([0.8, 0.8]).is_none() && (PI - 3.0) > 0.0);
+        assert!(from_disc([0.8, 0.8]).is_none());
     }
 }

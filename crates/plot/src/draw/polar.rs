@@ -202,7 +202,12 @@ impl Polar {
             return;
         }
         // Outside the numbers of the angles.
-        let [x, y] = disc.at(ray.angle, 1.0 + 42.0 / disc.radius);
+        // They reach far where they stand beside the disc; there the label moves a little along the rim.
+        let off = ray.angle - 30.0 * (ray.angle / 30.0).round();
+        let beside = off.abs() < 5.0 && (15.0..=165.0).contains(&ray.angle.abs());
+        let towards = if (ray.angle.abs() > 90.0) == (ray.angle > 0.0) { 1.0 } else { -1.0 };
+        let angle = if beside { ray.angle - off + 7.0 * towards } else { ray.angle };
+        let [x, y] = disc.at(angle, 1.0 + 42.0 / disc.radius);
         let anchor = if (x - disc.centre[0]).abs() < 0.2 * disc.radius {
             Anchor::Middle
         } else if x > disc.centre[0] {

@@ -74,10 +74,7 @@ mod tests {
         let mut t = Table::new(["name", "a, b"]);
         t.named("x \"y\"", [0.1 + 0.2]);
         t.named("z", [f64::NAN]);
-        assert_eq!(
-            t.csv(),
-            "name,\"a, b\"\n\"x \"\"y\"\"\",0.30000000000000004\nz,\n".replace("x \"\"y\"\"", "x \"\"y\"\"")
-        );
+        assert_eq!(t.csv(), "name,\"a, b\"\n\"x \"\"y\"\"\",0.30000000000000004\nz,\n");
         assert_eq!("0.30000000000000004".parse::<f64>().unwrap().to_bits(), (0.1f64 + 0.2).to_bits());
     }
 }

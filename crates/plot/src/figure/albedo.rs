@@ -21,7 +21,7 @@ fn without_view(series: &[Series]) -> Vec<Series> {
     let mut out: Vec<Series> = Vec::new();
     for s in series {
         let s = Series { wo_deg: [0.0, s.wo_deg[1]], ..s.clone() };
-        if !out.iter().any(|o| o.name() == s.name() && o.wo_deg == s.wo_deg) {
+        if !out.iter().any(|o| o.name() == s.name() && o.same_view(&s)) {
             out.push(s);
         }
     }
@@ -55,10 +55,10 @@ pub(super) fn curves(series: &[Series], o: &Options) -> Figure {
     let (lo, hi) = (all().filter(|v| *v > 0.0).fold(f64::INFINITY, f64::min), all().fold(0.0, f64::max));
     let y = if o.log {
         Axis::log("albedo", lo, hi, 8)
-    } else if hi > 1.0 + 1e-3 {
-        Axis::linear("albedo", 0.0, hi.min(10.0), 6)
     } else {
-        Axis::linear("albedo", 0.0, if hi > 0.5 { 1.0 } else { hi }, 6)
+        // Some room above, so that a curve at one does not lie on the frame.
+        let hi = if (0.5..=1.0 + 1e-3).contains(&hi) { 1.0 } else { hi.min(10.0) };
+        Axis::fixed("albedo", 0.0, 1.06 * hi, 6)
     };
     let mut about = vec!["directional albedo, all light that leaves".to_owned()];
     about.extend(azimuth(&series));

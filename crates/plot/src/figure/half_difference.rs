@@ -2,7 +2,7 @@
 
 use sparrow_math::{LocalDir, Real, vec3};
 
-use super::options::{Options, Quantity};
+use super::options::Options;
 use super::{Figure, column, page, panel_size};
 use crate::draw::axis::Axis;
 use crate::draw::heat::{Grid, Heat, Panel};
@@ -38,7 +38,7 @@ pub fn to_half_difference(wo: LocalDir<f64>, wi: LocalDir<f64>) -> [f64; 2] {
 }
 
 pub(super) fn figure(series: &[Series], o: &Options) -> Figure {
-    let quantity = if o.quantity == Quantity::Pdf { Quantity::Pdf } else { o.quantity };
+    let quantity = o.quantity;
     let views = super::several_views(series);
     let what = format!("{} [1/sr]", quantity.name());
     let names = series.iter().map(|s| column(s, views, &what));

@@ -13,6 +13,8 @@ use crate::draw::table::Table;
 use crate::draw::ticks::{pow10, short};
 use crate::series::{Labels, Series};
 
+/// Colour of arrows of delta lobes, among those of series: one that the colour map has not.
+const MIRROR: usize = 3;
 /// Decades that logarithmic lengths show below the greatest value.
 const DECADES: i32 = 3;
 /// Directions at which values are asked for before lines are placed: away from the normal or the peak, and around.
@@ -27,7 +29,7 @@ struct Net {
 
 pub(super) fn figure(series: &[Series], o: &Options) -> Figure {
     let below = series.iter().any(|s| s.kind.about().transmits || s.wo_deg[0] > 90.0);
-    let n = [38.0, 70.0].map(|n: f64| (n / (series.len() as f64).sqrt().min(1.8)) as usize);
+    let n = [40.0, 76.0].map(|n: f64| (n / (series.len() as f64).sqrt().min(1.8)) as usize);
     let sides: &[f64] = if below { &[1.0, -1.0] } else { &[1.0] };
     let nets: Vec<Vec<Net>> =
         series.iter().map(|s| sides.iter().map(|side| Net::new(s, o, *side, n)).collect()).collect();
@@ -71,7 +73,7 @@ fn pointers(s: &Series) -> Vec<Pointer> {
         all.push(pointer(up, 1.15, "n".to_owned(), None));
     }
     let mirrors = deltas(&s.model(), s.wo()).into_iter();
-    all.extend(mirrors.map(|d| pointer(d.wi, 1.0, format!("δ {}", short(d.share)), Some(1))));
+    all.extend(mirrors.map(|d| pointer(d.wi, 1.15, format!("δ {}", short(d.share)), Some(MIRROR))));
     all
 }
 
@@ -119,26 +121,21 @@ impl Net {
             let (s, c) = Real::sin_cos(u * to_horizon);
             LocalDir::new(frame.z * c + e * s)
         };
-        let mut over_u = vec![0.0f64; PROBES[0]];
-        let mut over_psi = vec![0.0f64; PROBES[1]];
-        for (j, most_u) in over_u.iter_mut().enumerate() {
-            for (i, most_psi) in over_psi.iter_mut().enumerate() {
-                let v = value(at(i as f64 / PROBES[1] as f64 * TAU, (j as f64 + 0.5) / PROBES[0] as f64));
-                if v.is_finite() {
-                    *most_u = most_u.max(v);
-                    // How far the lobe reaches at this azimuth.
-                    *most_psi += v;
-                }
-            }
-        }
-        let around = crowded(&over_psi, n[1]);
-        let ring = |u: &f64| {
-            // Just off the horizon, where values are defined.
-            let u = u.min(1.0 - 1e-5);
-            let point = |t: &f64| at(t * TAU, u);
-            around.iter().map(point).map(|w| (w, value(w))).collect()
+        let probe = |psi: f64| -> Vec<f64> {
+            let along = (0..PROBES[0]).map(|j| value(at(psi, (j as f64 + 0.5) / PROBES[0] as f64)));
+            along.map(|v| if v.is_finite() { v } else { 0.0 }).collect()
         };
-        Net { rings: crowded(&over_u, n[0]).iter().map(ring).collect() }
+        // How much of the lobe lies at each azimuth, and along each azimuth where it ends.
+        let share = |i: usize| probe(i as f64 / PROBES[1] as f64 * TAU).iter().sum();
+        let around = crowded(&(0..PROBES[1]).map(share).collect::<Vec<f64>>(), n[1]);
+        let rays: Vec<Vec<f64>> = around.iter().map(|t| crowded(&probe(t * TAU), n[0])).collect();
+        let point = |t: &f64, ray: &Vec<f64>, j: usize| {
+            // Just off the horizon, where values are defined.
+            let w = at(t * TAU, ray[j].min(1.0 - 1e-5));
+            (w, value(w))
+        };
+        let ring = |j: usize| around.iter().zip(&rays).map(|(t, ray)| point(t, ray, j)).collect();
+        Net { rings: (0..=n[0]).map(ring).collect() }
     }
 
     fn facets(&self, colour: &Axis) -> Vec<Facet> {
@@ -175,8 +172,8 @@ fn crowded(profile: &[f64], n: usize) -> Vec<f64> {
     let mut sum = 0.0;
     for k in 0..profile.len() {
         let next = profile.get(k + 1).copied().unwrap_or(profile[k]);
-        // Half of the lines follow the slope, half lie evenly.
-        sum += across + 0.6 * scale * (next - profile[k]).abs();
+        // A rise from nothing to the greatest value gets about as many lines as the whole width.
+        sum += across + 1.2 * scale * (next - profile[k]).abs();
         lengths.push(sum);
     }
     let mut places = Vec::with_capacity(n + 1);

@@ -96,10 +96,10 @@ fn panel_size(n: usize) -> [f64; 2] {
 
 /// `θo = 45°`, and the azimuth where it is not zero; nothing where series differ in their view.
 fn view_of(series: &[Series]) -> Vec<String> {
-    let first = series[0].wo_deg;
-    if series.iter().any(|s| s.wo_deg != first) {
+    if several_views(series) {
         return Vec::new();
     }
+    let first = series[0].wo_deg;
     let mut parts = vec![format!("θ_{{o}} = {}°", first[0])];
     if first[1].abs() > 0.0 {
         parts.push(format!("φ_{{o}} = {}°", first[1]));
@@ -118,5 +118,5 @@ fn column(series: &Series, several_views: bool, what: &str) -> String {
 
 /// The series differ in their view.
 fn several_views(series: &[Series]) -> bool {
-    series.iter().any(|s| s.wo_deg != series[0].wo_deg)
+    series.iter().any(|s| !s.same_view(&series[0]))
 }

@@ -13,6 +13,8 @@ use crate::series::Series;
 
 /// Decades that a logarithmic axis shows below the greatest value.
 const DECADES: [i32; 2] = [4, 6];
+/// The centre of logarithmic polar axes, over the least value: lobes keep some length where they are weakest.
+const POLAR_FLOOR: f64 = 0.25;
 
 /// What both figures share.
 struct Plane {
@@ -100,8 +102,11 @@ pub(super) fn polar(series: &[Series], o: &Options) -> Figure {
     let plane = Plane::new(series, o, DECADES[0]);
     let full = plane.curves.full;
     let [lo, hi] = plane.range;
-    let r =
-        if o.log { Axis::log(&plane.title, lo, hi, 6) } else { Axis::fixed(&plane.title, 0.0, 1.08 * hi, 6) };
+    let r = if o.log {
+        Axis::log(&plane.title, POLAR_FLOOR * lo, hi, 6)
+    } else {
+        Axis::fixed(&plane.title, 0.0, 1.08 * hi, 6)
+    };
     let lobes =
         (0..series.len()).map(|i| Lobe { series: i, points: plane.points(i), spikes: plane.spikes(i) });
     let page = plane_page(series, o, &plane, [960.0, if full { 940.0 } else { 640.0 }]);
