@@ -135,7 +135,7 @@ pub(super) fn axes(svg: &mut Svg, page: &Page, plot: Area, [x, y]: [&Axis; 2], g
     svg.line([plot.x, plot.y], [plot.x, bottom], Pen::new(theme.ink, 1.5));
     let style = Type::new(size::AXIS, theme.ink).anchor(Anchor::Middle);
     svg.text([plot.x + 0.5 * plot.w, bottom + 18.0 + size::TICK + size::AXIS], style, &x.title);
-    let longest = y.ticks.iter().map(|t| super::svg::text_width(&t.label, size::TICK)).fold(0.0, f64::max);
+    let longest = y.ticks.iter().map(|t| super::text::text_width(&t.label, size::TICK)).fold(0.0, f64::max);
     svg.text([plot.x - 26.0 - longest, plot.y + 0.5 * plot.h], style.upright(), &y.title);
 }
 

@@ -6,7 +6,8 @@ use super::axis::Axis;
 use super::cartesian::axes;
 use super::colour_map::{hex, rgb};
 use super::page::{Area, Page, panel_title};
-use super::svg::{Anchor, Pen, Point, Svg, Type, text_width};
+use super::svg::{Anchor, Pen, Point, Svg, Type};
+use super::text::text_width;
 use super::theme::size;
 
 /// Steps of colour that are told apart.

@@ -9,10 +9,10 @@ use super::page::{Area, Page, panel_title};
 use super::svg::{Anchor, Pen, Point, Svg, Type};
 use super::theme::size;
 
-/// A facet of a surface; the surface is seen from outside, its centre is the origin.
+/// A facet of a surface that is seen from outside.
 #[derive(Clone, Copy, Debug)]
 pub struct Facet {
-    /// Corners, in turn.
+    /// Corners, in turn, anticlockwise as seen from outside.
     pub corners: [Vec3<f64>; 4],
     /// Place on the colour axis's scale, 0..1.
     pub tone: f64,
@@ -134,7 +134,6 @@ impl Space {
             let [a, b, c, d] = facet.corners;
             let centre = (a + b + c + d) * 0.25;
             let across = (c - a).cross(d - b);
-            let across = if across.dot(centre) < 0.0 { -across } else { across };
             // Half of the cross product is the area as it is seen, in the scale's unit.
             let seen = 0.5 * across.dot(view.to_eye) * view.scale * view.scale;
             if seen > 0.05 {
@@ -163,7 +162,6 @@ impl Space {
                 Item::Facet(facet) => {
                     let [a, b, c, d] = facet.corners;
                     let n = (c - a).cross(d - b).normalized();
-                    let n = if n.dot(a + b + c + d) < 0.0 { -n } else { n };
                     let shade = 0.62 + 0.38 * n.dot(light).max(0.0);
                     let colour = hex(rgb(facet.tone).map(|v| shade * v));
                     svg.facet(&facet.corners.map(|p| view.at(p)), &colour);

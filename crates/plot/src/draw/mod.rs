@@ -14,5 +14,6 @@ pub mod polar;
 pub mod simplify;
 pub mod svg;
 pub mod table;
+pub mod text;
 pub mod theme;
 pub mod ticks;

@@ -1,6 +1,7 @@
 //! What stands around every plot: title, legend, notes: [`Page`].
 
-use super::svg::{Anchor, Pen, Point, Svg, Type, text_width};
+use super::svg::{Anchor, Pen, Point, Svg, Type};
+use super::text::text_width;
 use super::theme::{Theme, size};
 
 /// A rectangle of the page.

@@ -5,7 +5,8 @@ use sparrow_math::Real;
 use super::axis::{Axis, Scale};
 use super::page::Page;
 use super::simplify::simplify;
-use super::svg::{Anchor, Pen, Point, Svg, Type, text_width};
+use super::svg::{Anchor, Pen, Point, Svg, Type};
+use super::text::text_width;
 use super::theme::{size, stroke};
 
 /// A lobe: a length for every angle.

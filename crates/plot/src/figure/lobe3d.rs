@@ -147,7 +147,7 @@ impl Net {
         let mut facets = Vec::new();
         for j in 1..self.rings.len() {
             for i in 1..self.rings[j].len() {
-                let four = [corner(j - 1, i - 1), corner(j - 1, i), corner(j, i), corner(j, i - 1)];
+                let four = [corner(j - 1, i - 1), corner(j, i - 1), corner(j, i), corner(j - 1, i)];
                 let tone = 0.25 * four.iter().map(|c| c.1).sum::<f64>();
                 facets.push(Facet { corners: four.map(|c| c.0), tone });
             }
