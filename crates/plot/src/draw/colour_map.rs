@@ -1,6 +1,6 @@
 //! A perceptual colour map: equal steps of a value are about equal steps of lightness.
 
-/// The map viridis at sixteen places [vanDerWaltSmith2015]: from dark violet over green to yellow. Its lightness grows
+/// The map viridis at sixteen places [SmithWalt2015]: from dark violet over green to yellow. Its lightness grows
 /// evenly, and it reads the same with any kind of colour vision, and in grey.
 const VIRIDIS: [[u8; 3]; 16] = [
     [0x44, 0x01, 0x54],
