@@ -199,7 +199,17 @@ fn maps_run_over_the_roughness() {
         draw_figure(&series(words), &options).unwrap_err().to_string()
     };
     assert!(refuse("lambert", None).contains("has no roughness"));
-    assert!(refuse("eon roughness=0.5", None).contains("given a value too"));
+    // The axis goes over a value that was given, and says so; what is left then is one series.
+    let f = figure(
+        "lambert reflectance=0.2,0.7",
+        &Options { over: Some("reflectance".to_owned()), ..of(Kind::AlbedoMap) },
+    );
+    assert!(texts(&f.svg).iter().any(|t| t.starts_with("reflectance is the axis")));
+    let csv = f.table.csv();
+    let rows: Vec<Vec<f64>> =
+        csv.lines().skip(1).map(|l| l.split(',').skip(1).map(|v| v.parse().unwrap()).collect()).collect();
+    assert_eq!(rows.len(), 31 * 25);
+    assert!(rows.iter().all(|r| (r[1] - r[2]).abs() < 1e-4), "the albedo of Lambert is its reflectance");
     assert!(refuse("eon", Some("rougness")).contains("did you mean `roughness`?"));
     assert!(refuse("microfacet_reflection", Some("ndf")).contains("has no number `ndf`"));
     let many = series("conductor alpha=0.1,0.2,0.3,0.4,0.5,0.6,0.7");

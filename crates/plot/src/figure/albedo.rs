@@ -18,9 +18,21 @@ const LAST: u32 = 89;
 
 /// The series with the angle of the view free: those that differ in it alone are one.
 fn without_view(series: &[Series]) -> Vec<Series> {
+    distinct(series.iter().map(|s| Series { wo_deg: [0.0, s.wo_deg[1]], ..s.clone() }))
+}
+
+/// The series with a parameter free: those that differ in it alone are one.
+fn without(series: &[Series], over: &str) -> Vec<Series> {
+    distinct(series.iter().cloned().map(|mut s| {
+        let (kind, free) = (s.kind, targets(s.kind, over));
+        s.pins.retain(|(name, _)| !targets(kind, name).iter().any(|t| free.contains(t)));
+        s
+    }))
+}
+
+fn distinct(series: impl Iterator<Item = Series>) -> Vec<Series> {
     let mut out: Vec<Series> = Vec::new();
     for s in series {
-        let s = Series { wo_deg: [0.0, s.wo_deg[1]], ..s.clone() };
         if !out.iter().any(|o| o.name() == s.name() && o.same_view(&s)) {
             out.push(s);
         }
@@ -84,6 +96,9 @@ pub(super) fn map(series: &[Series], o: &Options) -> Result<Figure, PlotError> {
         Some(name) => name.clone(),
         None => roughness(series[0].kind)?,
     };
+    let given: usize = series.iter().map(|s| s.pins.len()).sum();
+    let series = without(&series, &over);
+    let unused = given > series.iter().map(|s| s.pins.len()).sum();
     let mut axis: Option<Axis> = None;
     for s in &series {
         let info = parameter(s, &over)?;
@@ -110,7 +125,11 @@ pub(super) fn map(series: &[Series], o: &Options) -> Result<Figure, PlotError> {
     };
     let mut about = vec!["directional albedo, all light that leaves".to_owned()];
     about.extend(azimuth(&series));
-    let page = page(&series, o, &about, false, panel_size(panels.len()));
+    let mut page = page(&series, o, &about, false, panel_size(panels.len()));
+    if unused {
+        page.notes
+            .push(format!("{over} is the axis of the map; values that were given for it are not used."));
+    }
     Ok(Figure { svg: Heat { page, x, y, colour, panels }.svg(), table })
 }
 
@@ -171,7 +190,7 @@ fn numbers(kind: SurfaceKind) -> Vec<&'static str> {
     kind.params().iter().filter(|p| !matches!(p.kind, ParamKind::Choice(_))).map(|p| p.name).collect()
 }
 
-/// The table's row of a parameter that takes a number and was not given a value.
+/// The table's row of a parameter that takes a number.
 fn parameter<'a>(s: &'a Series, over: &str) -> Result<&'a ParamInfo, PlotError> {
     let found = targets(s.kind, over);
     let table = s.kind.params();
@@ -183,13 +202,6 @@ fn parameter<'a>(s: &'a Series, over: &str) -> Result<&'a ParamInfo, PlotError> 
             s.kind.name()
         )));
     };
-    let taken = s.pins.iter().any(|(n, _)| targets(s.kind, n).iter().any(|t| found.contains(t)));
-    // A single value is overridden by the axis; that would be a surprise.
-    if taken {
-        return Err(PlotError::plain(format!(
-            "`{over}` is the axis of the map and was given a value too; leave it out, or choose another axis with --over"
-        )));
-    }
     Ok(info)
 }
 
