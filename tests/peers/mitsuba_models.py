@@ -24,7 +24,7 @@ import numpy as np
 COPPER = dict(eta=0.27, k=3.41)
 CORRELATED = "masking: ours correlates heights, Mitsuba's multiplies both sides"
 FITTED = "masking: Mitsuba's is Walter's rational fit to Beckmann's, good to 3e-3"
-ROUNDED = "rounding: facets close to the horizon of both directions"
+ROUNDED = "rounding, in pairs close to the critical angle"
 SEPARABLE = "masking=separable"
 
 

@@ -7,6 +7,8 @@ use clap::builder::{PathBufValueParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use sparrow_render::Mis;
 
+use crate::plot_cmd::PlotArgs;
+
 /// Most samples per pixel: beyond it the film's sums could saturate.
 pub(crate) const MAX_SPP: u32 = 1 << 22;
 
@@ -25,6 +27,7 @@ pub(crate) struct Cli {
 pub(crate) enum Verb {
     Render(Box<RenderArgs>),
     Info(InfoArgs),
+    Plot(Box<PlotArgs>),
 }
 
 /// Render a scene to OpenEXR, with an sRGB PNG beside it

@@ -89,6 +89,10 @@ impl Failure {
     pub(crate) fn usage(message: impl Into<String>) -> Failure {
         Failure::plain(USAGE, message)
     }
+    /// Several things of the command line were wrong.
+    pub(crate) fn usages(errors: Vec<Remark>) -> Failure {
+        Failure { code: USAGE, errors, warnings: Vec::new(), told: true }
+    }
     /// It ended before anything was there to be saved.
     pub(crate) fn interrupted(message: &str) -> Failure {
         Failure::plain(INTERRUPTED, message)

@@ -18,6 +18,7 @@ mod names;
 mod output;
 mod overrides;
 mod paths;
+mod plot_cmd;
 mod process;
 mod progress;
 mod render_cmd;
@@ -39,6 +40,7 @@ fn main() -> ExitCode {
     let (json, quiet, done) = match &cli.verb {
         Some(Verb::Render(a)) => (a.json, a.quiet, render_cmd::run(a)),
         Some(Verb::Info(a)) => (a.json, false, info_cmd::run(a)),
+        Some(Verb::Plot(a)) => (a.json, a.quiet, plot_cmd::run(a)),
         None => {
             // A broken pipe is no reason to complain about the help that nobody reads.
             let _ = Cli::command().print_help();

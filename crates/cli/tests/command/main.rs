@@ -6,5 +6,6 @@ mod errors;
 mod info;
 #[cfg(unix)]
 mod interrupts;
+mod plot;
 mod render;
 mod scratch;
