@@ -44,6 +44,11 @@ pub(crate) struct RenderArgs {
     #[arg(short, long, value_name = "OUT.exr", value_parser = PathBufValueParser::new().try_map(parse_output))]
     pub(crate) output: Option<PathBuf>,
 
+    /// Another material in the place of a named one of the scene, in the words of a scene: '"NAME" "string type" "conductor"
+    /// "float roughness" 0.3'; may be given again for others [default: none]
+    #[arg(long, value_name = "TEXT")]
+    pub(crate) material: Vec<String>,
+
     /// Samples per pixel [default: the scene's, 16 where it has no sampler; with --time, no limit]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=i64::from(MAX_SPP)))]
     pub(crate) spp: Option<u32>,

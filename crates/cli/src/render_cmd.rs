@@ -27,7 +27,8 @@ pub(crate) fn run(args: &RenderArgs) -> Result<u8, Failure> {
     let threads = start_threads(args)?;
     let mut log = Log { quiet: args.quiet, notes: Vec::new() };
 
-    let mut desc = sparrow_scene::read(&args.scene).map_err(|e| Failure::scene(&e))?;
+    let mut desc =
+        sparrow_scene::read_with_materials(&args.scene, &args.material).map_err(|e| Failure::scene(&e))?;
     let read = start.elapsed();
     overrides::apply(args, &mut desc);
     let out = outputs(args, &desc)?;

@@ -35,4 +35,4 @@ mod tables;
 
 pub use desc::*;
 pub use diagnostic::{Diagnostic, DisplayDiagnostic, SceneError, Severity, Span};
-pub use read::{read, read_str};
+pub use read::{read, read_str, read_with_materials};

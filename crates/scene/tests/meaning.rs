@@ -418,3 +418,25 @@ fn statements_are_counted_by_type() {
     let counts: Vec<_> = s.statements.iter().map(|(n, c)| (n.as_str(), *c)).collect();
     assert_eq!(counts, [("Shape disk", 1), ("Shape sphere", 2), ("Translate", 1), ("WorldBegin", 1)]);
 }
+
+#[test]
+fn a_material_from_outside_takes_the_place_of_a_named_one() {
+    let dir = std::env::temp_dir().join(format!("sparrow-replace-{}", std::process::id()));
+    std::fs::create_dir_all(&dir).expect("a folder");
+    let path = dir.join("scene.pbrt");
+    let text = "WorldBegin MakeNamedMaterial \"look\" \"string type\" \"diffuse\" \
+        NamedMaterial \"look\" Shape \"sphere\"";
+    std::fs::write(&path, text).expect("a file");
+    let with = |m: &str| sparrow_scene::read_with_materials(&path, &[m.to_string()]);
+
+    let s = with("\"look\" \"string type\" \"phong\" \"float exponent\" 7").expect("a scene");
+    assert_eq!(s.materials[s.shapes[0].material.0 as usize].type_name, "phong");
+    let said = |m: &str| with(m).expect_err("a fault").to_string();
+    let unknown = said("\"lok\" \"string type\" \"phong\"");
+    assert!(unknown.ends_with("no named material \"lok\" to replace; did you mean \"look\"?"), "{unknown}");
+    let wrong = said("\"look\" \"string type\" \"phong\" \"float exponnt\" 7");
+    assert!(wrong.starts_with("--material:1:30: "), "{wrong}");
+    let more = said("\"look\" \"string type\" \"phong\" Shape \"sphere\"");
+    assert!(more.contains("remove this"), "{more}");
+    std::fs::remove_dir_all(&dir).expect("our own folder");
+}

@@ -1,5 +1,7 @@
 //! Images and meshes of our own scenes, made by formula: small, and the same on every machine.
 
+mod cloth;
+mod grid;
 mod textures;
 mod vase;
 
@@ -23,9 +25,11 @@ pub fn write(scenes: &Path) -> Result<String, String> {
         png(&path, side, colour)?;
         report.push(path);
     }
-    let path = scenes.join("meshes/vase.ply");
-    fs::write(&path, vase::ply()).map_err(|e| format!("{}: {e}", path.display()))?;
-    report.push(path);
+    for (name, text) in [("cloth", cloth::ply()), ("vase", vase::ply())] {
+        let path = scenes.join(format!("meshes/{name}.ply"));
+        fs::write(&path, text).map_err(|e| format!("{}: {e}", path.display()))?;
+        report.push(path);
+    }
     Ok(report.iter().map(|p| format!("wrote {}", p.display())).collect::<Vec<_>>().join("\n"))
 }
 
@@ -52,7 +56,7 @@ mod tests {
         let fresh = std::env::temp_dir().join(format!("xtask-assets-{}", std::process::id()));
         write(&fresh).expect("assets");
         let mut names: Vec<String> = textures::ALL.iter().map(|(n, ..)| format!("textures/{n}")).collect();
-        names.push("meshes/vase.ply".to_owned());
+        names.extend(["cloth", "vase"].map(|n| format!("meshes/{n}.ply")));
         for name in names {
             let [old, new] = [scenes.join(&name), fresh.join(&name)].map(|p| fs::read(p).expect("a file"));
             assert!(old == new, "{name} differs; run `cargo run -p xtask -- assets`");

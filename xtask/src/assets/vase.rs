@@ -4,54 +4,24 @@ use std::f64::consts::TAU;
 
 use sparrow_math::Real;
 
+use super::grid;
+
 const HEIGHT: f64 = 1.7;
 const AROUND: u32 = 32;
 const UP: u32 = 24;
 /// Radius at equal steps of height, foot to lip.
 const RADII: [f64; 8] = [0.3, 0.36, 0.52, 0.58, 0.46, 0.25, 0.19, 0.3];
 
-/// An ASCII PLY file of triangles. The column at u = 1 stands where that at u = 0 stands.
+/// The mesh. The column at u = 1 stands where that at u = 0 stands.
 pub(super) fn ply() -> String {
-    let mut text = format!(
-        "ply\nformat ascii 1.0\ncomment written by cargo run -p xtask -- assets\nelement vertex {}\n",
-        (AROUND + 1) * (UP + 1)
-    );
-    for name in ["x", "y", "z", "nx", "ny", "nz", "u", "v"] {
-        text += &format!("property float {name}\n");
-    }
-    text +=
-        &format!("element face {}\nproperty list uchar int vertex_indices\nend_header\n", 2 * AROUND * UP);
-    for j in 0..=UP {
-        let v = f64::from(j) / f64::from(UP);
+    grid::ply(AROUND, UP, |i, j| {
+        let [u, v] = [f64::from(i) / f64::from(AROUND), f64::from(j) / f64::from(UP)];
         let (r, slope) = radius(v);
-        for i in 0..=AROUND {
-            let u = f64::from(i) / f64::from(AROUND);
-            // Clockwise seen from above, so that u, v and the outer normal are right-handed.
-            let (s, c) = Real::sin_cos(-TAU * f64::from(i % AROUND) / f64::from(AROUND));
-            let n = 1.0 / (1.0 + slope * slope).sqrt();
-            let numbers = [r * c, HEIGHT * v, r * s, n * c, -n * slope, n * s, u, v];
-            text += &numbers.map(short).join(" ");
-            text.push('\n');
-        }
-    }
-    for j in 0..UP {
-        for i in 0..AROUND {
-            let a = j * (AROUND + 1) + i;
-            let d = a + AROUND + 1;
-            text += &format!("3 {a} {} {}\n3 {a} {} {d}\n", a + 1, d + 1, d + 1);
-        }
-    }
-    text
-}
-
-/// Four decimals, without the sign of a zero.
-fn short(x: f64) -> String {
-    let text = format!("{x:.4}");
-    if text == "-0.0000" {
-        "0".to_owned()
-    } else {
-        text.trim_end_matches('0').trim_end_matches('.').to_owned()
-    }
+        // Clockwise seen from above, so that u, v and the outer normal are right-handed.
+        let (s, c) = Real::sin_cos(-TAU * f64::from(i % AROUND) / f64::from(AROUND));
+        let n = 1.0 / (1.0 + slope * slope).sqrt();
+        [r * c, HEIGHT * v, r * s, n * c, -n * slope, n * s, u, v]
+    })
 }
 
 /// Radius at `v` of the height and its slope against the height: a Catmull-Rom curve through [`RADII`].

@@ -14,8 +14,9 @@ const MAX_INCLUDES: usize = 100_000;
 
 impl Builder {
     /// Reads the main scene file.
-    pub(crate) fn read_main(&mut self, path: &Path) {
+    pub(crate) fn read_main(&mut self, path: &Path, materials: &[String]) {
         let file = self.report.add_file(path.to_path_buf());
+        materials.iter().for_each(|text| self.replace_material(text));
         let whole = Span { file, ..Span::default() };
         match read_bytes(path) {
             Ok(bytes) => {

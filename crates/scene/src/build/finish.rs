@@ -36,6 +36,7 @@ impl Builder {
         let (filter, sampler) = (self.make_filter(), self.make_sampler());
         let integrator = self.make_integrator();
         self.check_media();
+        self.check_replacements();
         self.make_textures();
         let materials = self.make_materials();
         let shapes = self.make_shapes(&materials);

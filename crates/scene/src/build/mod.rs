@@ -13,6 +13,7 @@ mod integrator;
 mod lights;
 mod materials;
 mod mesh;
+mod replace;
 mod shapes;
 mod spectrum;
 mod statements;
@@ -35,6 +36,7 @@ use crate::tables::Entity;
 use blocks::Block;
 use graphics::Graphics;
 use materials::PendingMaterial;
+use replace::Replacement;
 use shapes::{Item, Object};
 use textures::{PendingTexture, Textures};
 
@@ -81,6 +83,8 @@ pub(crate) struct Builder {
     textures: Vec<PendingTexture>,
     materials: Vec<PendingMaterial>,
     named_materials: HashMap<Rc<str>, Span>,
+    /// Materials that stand for named ones of the scene.
+    replacements: Vec<Replacement>,
     media: HashMap<String, Span>,
     /// Uses of media by name, to be checked at the end.
     medium_uses: Vec<(String, Span)>,
@@ -115,6 +119,7 @@ impl Builder {
             textures: Vec::new(),
             materials: Vec::new(),
             named_materials: HashMap::new(),
+            replacements: Vec::new(),
             media: HashMap::new(),
             medium_uses: Vec::new(),
             lights: Vec::new(),

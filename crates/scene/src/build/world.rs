@@ -59,7 +59,7 @@ impl Builder {
         Ok(true)
     }
 
-    fn read_params(&mut self, parser: &mut Parser<'_>, category: Category, at: Span) -> Params {
+    pub(super) fn read_params(&mut self, parser: &mut Parser<'_>, category: Category, at: Span) -> Params {
         let color_space = self.graphics.color_space;
         let mut broken = false;
         let own = parser.params(color_space, |d| {
@@ -129,6 +129,7 @@ impl Builder {
     }
 
     fn make_named_material(&mut self, (name, name_at): TypeName, params: Params) {
+        let params = self.replaced(&name).unwrap_or(params);
         let name: Rc<str> = name.into();
         let Some((type_name, type_at)) = params.text("type").map(|(t, at)| (t.to_string(), at)) else {
             let message =
