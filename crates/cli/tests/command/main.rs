@@ -6,5 +6,6 @@ mod errors;
 mod info;
 #[cfg(unix)]
 mod interrupts;
+mod models;
 mod render;
 mod scratch;

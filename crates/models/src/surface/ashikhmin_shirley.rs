@@ -67,7 +67,7 @@ impl<R: Real> AshikhminShirley<R> {
         let sin2 = m.sin2_theta();
         let slanted = sin2.gt(R::of(1e-20));
         let across = (self.n_u * m.x().sqr() + self.n_v * m.y().sqr()) / R::select(slanted, sin2, R::ONE);
-        let power = cosine_lobe::power(m.cos_theta().min(R::ONE), across);
+        let power = cosine_lobe::lobe(m.cos_theta(), sin2, across);
         ((self.n_u + R::ONE) * (self.n_v + R::ONE)).sqrt() * R::of(0.5 * FRAC_1_PI) * power
     }
     #[inline(always)]
@@ -97,8 +97,7 @@ impl<R: Real> Opaque for AshikhminShirley<R> {
         let (a, b) = ((self.n_v + R::ONE).sqrt(), (self.n_u + R::ONE).sqrt());
         let (c, s) = cosine_lobe::stretched_azimuth(u.dir[1], a, b);
         let n = self.n_u * c.sqr() + self.n_v * s.sqr();
-        let cos = cosine_lobe::power(R::ONE - u.dir[0], R::ONE / (n + R::ONE)).min(R::ONE);
-        let sin = ((R::ONE - cos) * (R::ONE + cos)).safe_sqrt();
+        let (sin, cos) = cosine_lobe::angle(u.dir[0], n);
         self.lobes().pick(u, o.reflect(LocalDir::new(vec3(sin * c, sin * s, cos))))
     }
 }

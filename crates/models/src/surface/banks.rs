@@ -24,8 +24,8 @@ pub struct Banks<R> {
 impl<R: Real> Model<R> for Banks<R> {
     const ABOUT: About =
         About::new("parallel threads, shaded as curves", "Banks1994").anisotropic().lacks(&[
-            (Lack::Energy, "the highlight has no normalisation"),
-            (Lack::Reciprocity, "the diffuse term knows the light's direction alone"),
+            Lack::energy("the highlight has no normalisation"),
+            Lack::reciprocity("the diffuse term knows the light's direction alone"),
         ]);
     const PARAMS: &'static [ParamInfo] = &[
         ParamInfo::albedo("diffuse").default(0.3).doc("Strength of the diffuse term, kd."),

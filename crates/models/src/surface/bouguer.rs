@@ -25,7 +25,8 @@ pub struct Bouguer<R> {
 
 impl<R: Real> Model<R> for Bouguer<R> {
     const ABOUT: About = About::new("mirror facets that are matt at normal incidence", "Bouguer1760").lacks(
-        &[(Lack::Energy, "masking `none`: facets turned away are counted; above one beyond 70 degrees")],
+        &[Lack::energy("facets turned away are counted; above one beyond 70 degrees")
+            .when(&[("masking", &["none"])])],
     );
     const PARAMS: &'static [ParamInfo] = &[
         ParamInfo::albedo("reflectance").default(0.8).doc("Share of the light that a facet reflects."),

@@ -6,7 +6,8 @@ use sparrow_stats::cubature::Stop;
 use sparrow_stats::{Cell, Partition, Random, chi_square};
 
 use crate::column::{Column, Dir, Value};
-use crate::question::{ColumnName, Finding, Question};
+use crate::question::{ColumnName, Question};
+use crate::report::Finding;
 use crate::tally::{Tally, stream};
 
 /// Samples from which cells are made.

@@ -9,7 +9,7 @@ use sparrow_stats::{Random, sidak};
 
 use crate::case::{Case, Pins, Style};
 use crate::integrals::{self, Sizes, Spread, View};
-use crate::question::{Finding, Report, rows};
+use crate::report::{self, Answered, Finding, Report};
 use crate::subject::Subject;
 use crate::{edges, points, tally};
 
@@ -84,14 +84,12 @@ pub fn verify(
     let report = |(s, subject): (usize, &&dyn Subject)| {
         let mine = jobs.iter().zip(&answers).filter(|(j, _)| j.subject == s);
         let mine: Vec<(&Job, &Done)> = mine.filter_map(|(j, d)| Some((j, d.as_ref()?))).collect();
-        let findings: Vec<(String, Vec<Finding>)> = mine
-            .iter()
-            .map(|(j, d)| (format!("{} {}", subject.name(), j.case.words()), d.findings.clone()))
-            .collect();
+        let answers: Vec<Answered<'_>> = mine.iter().map(|(j, d)| (&j.case, d.findings.as_slice())).collect();
         Report {
             model: subject.name(),
             samples: sizes.samples,
-            rows: rows(&subject.about(), &findings),
+            rows: report::rows(*subject, &answers),
+            claims: report::claims(*subject, &answers),
             largest_weight: mine.iter().map(|(_, d)| d.spread.largest).fold(0.0, f64::max),
             least_efficiency: mine.iter().map(|(_, d)| d.spread.efficiency).fold(1.0, f64::min),
             seconds: mine.iter().map(|(_, d)| d.seconds).sum(),

@@ -94,8 +94,14 @@ fn subjects(args: &VerifyArgs) -> Result<Vec<SurfaceKind>, Failure> {
 /// # Errors
 /// Where there is none.
 pub(crate) fn kind(name: &str) -> Result<SurfaceKind, Failure> {
-    SurfaceKind::from_name(name)
-        .ok_or_else(|| Failure::usage(format!("there is no model `{name}`; `sparrow models` lists them")))
+    SurfaceKind::from_name(name).ok_or_else(|| {
+        let near = sparrow_verify::nearest(name, SurfaceKind::ALL.iter().map(|k| k.name()));
+        let remedy = match near {
+            Some(near) => format!("did you mean `{near}`?"),
+            None => "`sparrow models` lists them".to_owned(),
+        };
+        Failure::usage(format!("there is no model `{name}`; {remedy}"))
+    })
 }
 
 fn table(report: &Report, args: &VerifyArgs, out: &mut String) {
@@ -123,6 +129,13 @@ fn table(report: &Report, args: &VerifyArgs, out: &mut String) {
         if !matches!(row.verdict, Verdict::Pass | Verdict::NotAsked) || !args.all {
             detail(row, args, out);
         }
+    }
+    for claim in report.claims.iter().filter(|c| c.cases > 0 && c.found == 0) {
+        let _ = writeln!(
+            out,
+            "  said to lack {} ({}), not found in {} cases",
+            claim.property, claim.reason, claim.cases
+        );
     }
     let _ = writeln!(out);
 }

@@ -22,12 +22,14 @@ mod edges;
 mod integrals;
 mod points;
 mod question;
+mod report;
 mod run;
 mod subject;
 mod tally;
 
-pub use case::{Case, PinError, Pins};
+pub use case::{Case, PinError, Pins, nearest};
 pub use column::{Batch, Column, Drawn, Scalar, Value, narrow};
-pub use question::{ColumnName, Question, Report, Row, Verdict};
+pub use question::{ColumnName, Question};
+pub use report::{Claim, Report, Row, Verdict};
 pub use run::{Options, verify};
 pub use subject::Subject;

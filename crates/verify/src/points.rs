@@ -9,7 +9,8 @@ use sparrow_spectra::N_LAMBDA;
 
 use crate::column::{Column, Dir, Drawn, Value};
 use crate::integrals::View;
-use crate::question::{ColumnName, Finding, Question};
+use crate::question::{ColumnName, Question};
+use crate::report::Finding;
 use crate::tally::uniforms;
 
 /// Samples looked at one by one.

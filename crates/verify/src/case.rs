@@ -21,12 +21,12 @@ pub enum PinError {
     #[error("`{0}` is no parameter; write NAME=VALUE")]
     Form(String),
     /// The model has no such parameter.
-    #[error("no parameter `{name}`; there are {known}")]
+    #[error("no parameter `{name}`; {remedy}")]
     Unknown {
         /// The name given.
         name: String,
-        /// The names there are.
-        known: String,
+        /// What to do about it.
+        remedy: String,
     },
     /// The value cannot be read.
     #[error("`{name}={value}`: give {form}")]
@@ -38,6 +38,13 @@ pub enum PinError {
         /// What would be accepted.
         form: String,
     },
+}
+
+/// The name nearest to `word`, where one is near enough to be meant: a quarter of its letters may differ.
+pub fn nearest<'a>(word: &str, names: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let near = |n: &str| strsim::osa_distance(word, n);
+    let close = names.into_iter().filter(|n| near(n) <= (n.len().max(word.len()) / 4).clamp(1, 4));
+    close.min_by_key(|n| near(n)).filter(|n| near(n) < n.len())
 }
 
 /// What the user named: parameters in the order of the table, and the view in degrees.
@@ -77,7 +84,11 @@ impl Pins {
             let Some(i) = table.iter().position(|p| p.name == name) else {
                 let mut known: Vec<&str> = table.iter().map(|p| p.name).collect();
                 known.push("wo");
-                return Err(PinError::Unknown { name: name.to_owned(), known: known.join(", ") });
+                let remedy = match nearest(name, known.iter().copied()) {
+                    Some(near) => format!("did you mean `{near}`?"),
+                    None => format!("there are {}", known.join(", ")),
+                };
+                return Err(PinError::Unknown { name: name.to_owned(), remedy });
             };
             pins.values[i] = Some(pin(&table[i], value).ok_or_else(|| wrong(form(&table[i])))?);
         }
@@ -316,7 +327,8 @@ mod tests {
     fn what_cannot_be_read_is_told() {
         let told = |w: &str| Pins::parse(TABLE, &[w]).unwrap_err().to_string();
         assert_eq!(told("alpha"), "`alpha` is no parameter; write NAME=VALUE");
-        assert_eq!(told("alfa=1"), "no parameter `alfa`; there are alpha, rho, kind, wo");
+        assert_eq!(told("alpah=1"), "no parameter `alpah`; did you mean `alpha`?");
+        assert_eq!(told("shine=1"), "no parameter `shine`; there are alpha, rho, kind, wo");
         assert_eq!(told("alpha=2"), "`alpha=2`: give a number from 0 to 1");
         assert_eq!(told("rho=1,0"), "`rho=1,0`: give a number from 0 to 1, or four with commas");
         assert_eq!(told("kind=three"), "`kind=three`: give one of one, two");
