@@ -86,11 +86,7 @@ fn model(kind: SurfaceKind) -> Model {
 }
 
 fn missing(lack: &Lack) -> Missing {
-    Missing {
-        property: lack.property.name(),
-        reason: lack.reason,
-        when: lack.when.iter().copied().collect(),
-    }
+    Missing { property: lack.property.name(), reason: lack.reason, when: lack.when.iter().copied().collect() }
 }
 
 fn param(p: &ParamInfo) -> Param {

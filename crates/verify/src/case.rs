@@ -156,6 +156,8 @@ pub(crate) enum Style {
     Common,
     /// At an end of the ranges as often as not.
     Ends,
+    /// As common, but nothing absorbs: one albedo is one, the others are zero, indices of refraction are zero.
+    White,
 }
 
 impl Case {
@@ -168,7 +170,9 @@ impl Case {
         rng: &mut Random,
     ) -> Case {
         let mut params = ParamBlock::<f64>::defaults(table);
-        let shares = table.iter().filter(|p| p.kind == ParamKind::Albedo).count().max(1) as f64;
+        let shares = table.iter().filter(|p| p.kind == ParamKind::Albedo).count().max(1);
+        let white = (style == Style::White).then(|| rng.below(shares));
+        let mut albedos = 0;
         let (mut r, mut s, mut c) = (0, 0, 0);
         for (place, info) in table.iter().enumerate() {
             let pinned = pins.values.get(place).copied().flatten();
@@ -185,16 +189,22 @@ impl Case {
                 ParamKind::Albedo | ParamKind::Unbounded => {
                     params.spectra[s] = match pinned {
                         Some(Pin::Spectrum(v)) => Spectrum(v),
-                        _ if free => spectrum(info, shares, style, rng),
+                        _ if free => match white {
+                            Some(of) => {
+                                let one = info.kind == ParamKind::Albedo && of == albedos;
+                                Spectrum::splat(if one { 1.0 } else { info.range[0] })
+                            }
+                            None => spectrum(info, shares as f64, style, rng),
+                        },
                         _ => params.spectra[s],
                     };
+                    albedos += usize::from(info.kind == ParamKind::Albedo);
                     s += 1;
                 }
                 ParamKind::Choice(names) => {
                     params.choices[c] = match pinned {
                         Some(Pin::Choice(k)) => k,
-                        // Every name has its turn; the second round pairs them differently.
-                        _ if free => ((index + (index / names.len()) * (c + 1)) % names.len()) as u8,
+                        _ if free => turn(index, c, names.len()),
                         _ => params.choices[c],
                     };
                     c += 1;
@@ -247,6 +257,13 @@ impl Case {
     }
 }
 
+/// The `index`-th choice among `n`: multiples of irrational numbers reach every name soon, and pair each with each.
+fn turn(index: usize, parameter: usize, n: usize) -> u8 {
+    const STEPS: [f64; 6] = [2.0, 3.0, 5.0, 7.0, 11.0, 13.0];
+    let x = 0.5 + index as f64 * STEPS[parameter % STEPS.len()].sqrt();
+    ((x.fract() * n as f64) as usize).min(n - 1) as u8
+}
+
 fn is_roughness(info: &ParamInfo) -> bool {
     info.name.starts_with("alpha") || info.name.contains("roughness")
 }
@@ -265,8 +282,8 @@ fn real(info: &ParamInfo, index: usize, style: Style, rng: &mut Random) -> f64 {
     if is_roughness(info) {
         let least = LEAST_ROUGHNESS.max(info.range[0]);
         // The narrowest has cases of its own.
-        return match index % 4 {
-            1 => least,
+        return match index {
+            1 | 5 => least,
             _ => Real::exp(rng.within(Real::ln(least), Real::ln(bounded(info.range[1]).max(least)))),
         };
     }

@@ -19,6 +19,7 @@
 mod case;
 mod column;
 mod edges;
+mod furnace;
 mod integrals;
 mod points;
 mod question;

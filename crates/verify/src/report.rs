@@ -118,8 +118,9 @@ pub(crate) fn rows(subject: &dyn Subject, answers: &[Answered<'_>]) -> Vec<Row> 
             for (case, findings) in answers {
                 let excuse = lacks(subject, case, question).next();
                 let worst = if excuse.is_some() { &mut excused } else { &mut open };
-                for f in findings.iter().filter(|f| f.question == question && f.column == column) {
-                    cases += 1;
+                let mine = || findings.iter().filter(|f| f.question == question && f.column == column);
+                cases += usize::from(mine().next().is_some());
+                for f in mine() {
                     if worst.as_ref().is_none_or(|w: &Worst<'_>| f.severity > w.finding.severity) {
                         *worst = Some(Worst { finding: f, case, excuse });
                     }
@@ -179,8 +180,7 @@ fn lacks(subject: &dyn Subject, case: &Case, question: Question) -> impl Iterato
 pub(crate) fn claims(subject: &dyn Subject, answers: &[Answered<'_>]) -> Vec<Claim> {
     let claim = |lack: &'static Lack| {
         let mine = answers.iter().filter(|(c, _)| lack.applies(subject.params(), &c.params.choices));
-        let missing =
-            |f: &Finding| f.question.property() == Some(lack.property) && f.severity > 1.0;
+        let missing = |f: &Finding| f.question.property() == Some(lack.property) && f.severity > 1.0;
         Claim {
             property: lack.property.name(),
             reason: lack.reason,

@@ -11,7 +11,7 @@ use crate::case::{Case, Pins, Style};
 use crate::integrals::{self, Sizes, Spread, View};
 use crate::report::{self, Answered, Finding, Report};
 use crate::subject::Subject;
-use crate::{edges, points, tally};
+use crate::{edges, furnace, points, tally};
 
 /// Chance of any false alarm among all chi-square tests of a model.
 const FALSE_ALARMS: f64 = 1e-4;
@@ -114,8 +114,12 @@ fn jobs(subjects: &[&dyn Subject], pins: &Pins, options: &Options) -> Vec<Job> {
             let purpose = if full { "full" } else { "points" };
             for index in 0..n {
                 let mut rng = Random::named(options.seed, &format!("{} {purpose} {index}", s.name()));
-                let ends = !full && index % 2 == 1;
-                let style = if ends { Style::Ends } else { Style::Common };
+                let style = match (full, index % 4) {
+                    (true, 2) | (false, 2) => Style::White,
+                    (true, 0) if index > 0 => Style::White,
+                    (false, 1 | 3) => Style::Ends,
+                    _ => Style::Common,
+                };
                 // Points begin where the full cases stop, with other angles.
                 let index = if full { index } else { index + 1 };
                 let case = Case::draw(s.params(), pins, index, style, &mut rng);
@@ -136,6 +140,7 @@ fn work(subject: &dyn Subject, job: &Job, sizes: Sizes, seed: u64) -> Done {
     let mut findings = Vec::new();
     edges::ask(&columns, &mut findings);
     points::ask(&view, &mut findings);
+    furnace::ask(&view, &mut findings);
     let mut spread = Spread { largest: 0.0, efficiency: 1.0 };
     if job.full {
         spread = integrals::ask(&view, sizes, &mut findings);

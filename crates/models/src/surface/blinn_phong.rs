@@ -24,11 +24,9 @@ pub struct BlinnPhong<R> {
 }
 
 impl<R: Real> Model<R> for BlinnPhong<R> {
-    const ABOUT: About =
-        About::new("cosine-power lobe of the half vector", "Blinn1977, Phong1975").lacks(&[Lack::energy(
-            "the raw lobe's light depends on its exponent and exceeds one below n = 19",
-        )
-        .when(&[("form", &["raw"])])]);
+    const ABOUT: About = About::new("cosine-power lobe of the half vector", "Blinn1977, Phong1975")
+        .lacks(&[Lack::energy("the raw lobe's light depends on its exponent and exceeds one below n = 19")
+            .when(&[("form", &["raw"])])]);
     const PARAMS: &'static [ParamInfo] = &[
         ParamInfo::albedo("diffuse").default(0.3).doc("Share of the light that the base reflects, kd."),
         ParamInfo::albedo("specular").default(0.3).doc("Strength of the lobe, ks."),

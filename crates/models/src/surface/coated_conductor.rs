@@ -225,7 +225,8 @@ impl<R: Real> CoatedConductor<R> {
         let m = Vec3::select(self.ggx.is_smooth(), up, self.ggx.sample_visible(o, u).v());
         let i = o.reflect(LocalDir::new(m));
         let v = i.v() * self.coat.eta;
-        let z2 = R::ONE - v.x * v.x - v.y * v.y;
+        // 1 - x^2 - y^2, with the digits of grazing directions.
+        let z2 = v.z.sqr() - (self.coat.eta - R::ONE) * (self.coat.eta + R::ONE);
         let out = i.above() & z2.gt(R::ZERO);
         // Where it is kept inside, what remains has unit length and lies below.
         LocalDir::new(Vec3::select(out, Vec3 { z: z2.safe_sqrt(), ..v }, -up))

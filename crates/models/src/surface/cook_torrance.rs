@@ -30,10 +30,9 @@ pub struct CookTorrance<R> {
 
 impl<R: Real> Model<R> for CookTorrance<R> {
     const ABOUT: About =
-        About::new("Beckmann facets in V-grooves, as printed or put right", "CookTorrance1982")
-            .lacks(&[
-                Lack::energy("the printed lobe is four times too strong").when(&[("form", &["printed"])]),
-            ]);
+        About::new("Beckmann facets in V-grooves, as printed or put right", "CookTorrance1982").lacks(&[
+            Lack::energy("the printed lobe is four times too strong").when(&[("form", &["printed"])]),
+        ]);
     const PARAMS: &'static [ParamInfo] = &[
         ParamInfo::real("alpha").default(0.3).soft(0.01, 0.7).doc("Root mean square slope m of the facets."),
         ParamInfo::real("specular").default(1.0).doc("Share s of the facets; the diffuse base has 1 - s."),
