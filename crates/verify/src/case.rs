@@ -156,7 +156,7 @@ pub(crate) enum Style {
     Common,
     /// At an end of the ranges as often as not.
     Ends,
-    /// As common, but nothing absorbs: one albedo is one, the others are zero, indices of refraction are zero.
+    /// At an end as well, and nothing absorbs: one albedo is one, the others are zero, indices of refraction are zero.
     White,
 }
 
@@ -271,7 +271,7 @@ fn is_roughness(info: &ParamInfo) -> bool {
 fn real(info: &ParamInfo, index: usize, style: Style, rng: &mut Random) -> f64 {
     let [lo, hi] = [info.soft[0].max(info.range[0]), info.soft[1].min(info.range[1])];
     let bounded = |v: f64| if v.is_finite() { v } else { LARGEST };
-    if style == Style::Ends {
+    if style != Style::Common {
         let ends = [bounded(info.range[0]), bounded(info.range[1]), LEAST_ROUGHNESS.max(info.range[0])];
         match rng.below(5) {
             k @ 0..2 => return ends[k],

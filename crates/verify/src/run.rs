@@ -5,6 +5,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
 use sparrow_math::LocalDir;
+use sparrow_models::{ParamInfo, ParamKind};
 use sparrow_stats::{Random, sidak};
 
 use crate::case::{Case, Pins, Style};
@@ -63,15 +64,19 @@ pub fn verify(
     let jobs = jobs(subjects, pins, options);
     let done: Vec<Mutex<Option<Done>>> = jobs.iter().map(|_| Mutex::new(None)).collect();
     let (next, finished) = (AtomicUsize::new(0), AtomicUsize::new(0));
-    let tests = 3 * jobs.iter().filter(|j| j.full && j.subject == 0).count();
-    let sizes = Sizes { samples: options.samples.max(1000), level: sidak(FALSE_ALARMS, tests) };
+    let samples = options.samples.max(1000);
+    let sizes = |subject: usize| {
+        let tests = 3 * jobs.iter().filter(|j| j.full && j.subject == subject).count();
+        Sizes { samples, level: sidak(FALSE_ALARMS, tests) }
+    };
+    let sizes: Vec<Sizes> = (0..subjects.len()).map(sizes).collect();
     std::thread::scope(|scope| {
         for _ in 0..options.threads.max(1) {
             scope.spawn(|| {
                 loop {
                     let i = next.fetch_add(1, Ordering::Relaxed);
                     let Some(job) = jobs.get(i) else { break };
-                    let answer = work(subjects[job.subject], job, sizes, options.seed);
+                    let answer = work(subjects[job.subject], job, sizes[job.subject], options.seed);
                     if let Ok(mut slot) = done[i].lock() {
                         *slot = Some(answer);
                     }
@@ -87,7 +92,7 @@ pub fn verify(
         let answers: Vec<Answered<'_>> = mine.iter().map(|(j, d)| (&j.case, d.findings.as_slice())).collect();
         Report {
             model: subject.name(),
-            samples: sizes.samples,
+            samples,
             rows: report::rows(*subject, &answers),
             claims: report::claims(*subject, &answers),
             largest_weight: mine.iter().map(|(_, d)| d.spread.largest).fold(0.0, f64::max),
@@ -103,9 +108,11 @@ fn jobs(subjects: &[&dyn Subject], pins: &Pins, options: &Options) -> Vec<Job> {
     let mut jobs = Vec::new();
     for full in [true, false] {
         for (subject, s) in subjects.iter().enumerate() {
+            let names = names(*s);
             let n = match (pins.is_empty(), pins.has_view()) {
-                (true, _) if full => options.cases,
-                (true, _) => options.points,
+                // Many choices take many cases to pair.
+                (true, _) if full => options.cases.max(options.cases * names / 16),
+                (true, _) => options.points.max(options.points * names / 8),
                 // The same parameters from every angle.
                 (false, false) if full => options.cases,
                 (false, true) if full => 1,
@@ -128,6 +135,15 @@ fn jobs(subjects: &[&dyn Subject], pins: &Pins, options: &Options) -> Vec<Job> {
         }
     }
     jobs
+}
+
+/// Number of names of all choices together.
+fn names(subject: &dyn Subject) -> usize {
+    let of = |p: &ParamInfo| match p.kind {
+        ParamKind::Choice(names) => names.len(),
+        ParamKind::Real | ParamKind::Albedo | ParamKind::Unbounded => 0,
+    };
+    subject.params().iter().map(of).sum()
 }
 
 fn work(subject: &dyn Subject, job: &Job, sizes: Sizes, seed: u64) -> Done {

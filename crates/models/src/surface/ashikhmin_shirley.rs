@@ -57,9 +57,10 @@ fn base_shape<R: Real>(cos: R) -> R {
 }
 
 impl<R: Real> AshikhminShirley<R> {
+    /// The highlight is weighted by what it reflects towards the viewer: at grazing views that is much, however dark it is.
     #[inline(always)]
-    fn lobes(&self) -> TwoLobes<R> {
-        TwoLobes::new(self.diffuse, self.specular)
+    fn lobes(&self, o: LocalDir<R>) -> TwoLobes<R> {
+        TwoLobes::new(self.diffuse, self.schlick(o.cos_theta().min(R::ONE)))
     }
     /// `sqrt((n_u + 1)(n_v + 1)) / (2 pi) (n.h)^e`, the density of half vectors. [AshikhminShirley2000]
     #[inline(always)]
@@ -89,7 +90,7 @@ impl<R: Real> Opaque for AshikhminShirley<R> {
         let f_s = F * (pdf / o.cos_theta().max(i.cos_theta()));
         let shape = R::of(28.0 / (23.0 * PI)) * base_shape(o.cos_theta()) * base_shape(i.cos_theta());
         let f_d = self.diffuse * (Spectrum::ONE - self.specular) * shape;
-        (f_s + f_d, self.lobes().density(i, pdf))
+        (f_s + f_d, self.lobes(o).density(i, pdf))
     }
 
     #[inline(always)]
@@ -98,6 +99,6 @@ impl<R: Real> Opaque for AshikhminShirley<R> {
         let (c, s) = cosine_lobe::stretched_azimuth(u.dir[1], a, b);
         let n = self.n_u * c.sqr() + self.n_v * s.sqr();
         let (sin, cos) = cosine_lobe::angle(u.dir[0], n);
-        self.lobes().pick(u, o.reflect(LocalDir::new(vec3(sin * c, sin * s, cos))))
+        self.lobes(o).pick(u, o.reflect(LocalDir::new(vec3(sin * c, sin * s, cos))))
     }
 }

@@ -5,7 +5,8 @@
 //! with the fit for a Gaussian surface of the same curvature at its top [Walter2007, eq. 27]; or V-grooves [Blinn1977].
 //! `fresnel` chooses F: exact for a complex index (zero k is a dielectric), or the constant `reflectance`.
 //!
-//! Limits: single scattering. Without masking the value grows without bound towards grazing. The model as it was published
+//! Limits: single scattering. Smith's term fits narrow distributions: at an exponent of 20 it gains 0.1 % at grazing views, at 5
+//! 8 %, at 0 a third. Without masking the value grows without bound towards grazing. The model as it was published
 //! is `torrance_sparrow_1967`.
 
 use core::f64::consts::FRAC_1_PI;
@@ -44,6 +45,8 @@ impl<R: Real> Model<R> for TorranceSparrow<R> {
     .lacks(&[
         Lack::energy("without masking the value grows without bound at grazing angles")
             .when(&[("masking", &["none"])]),
+        Lack::energy("the masking is that of a Gaussian surface, too open for exponents below 20: up to a third is gained")
+            .when(&[("masking", &["smith"])]),
         Lack::energy("the facets have the wrong area").when(&[("distribution", &["unnormalized"])]),
     ]);
     const PARAMS: &'static [ParamInfo] = &[
