@@ -124,9 +124,13 @@ fn table(report: &Report, args: &VerifyArgs, out: &mut String) {
         report.largest_weight,
         100.0 * report.least_efficiency
     );
-    for row in &report.rows {
-        // One model alone is shown in full, among many only what is not as it ought to be.
-        if !matches!(row.verdict, Verdict::Pass | Verdict::NotAsked) || !args.all {
+    for question in Question::ALL {
+        let rows = || report.rows.iter().filter(|r| r.question == question);
+        rows().filter(|r| r.verdict == Verdict::Fail).for_each(|row| detail(row, args, out));
+        // Of what is as it ought to be, or known, the worst column will do; among many models that is left out.
+        let rest = rows().filter(|r| r.verdict != Verdict::Fail);
+        let worst = rest.max_by(|a, b| a.severity.total_cmp(&b.severity));
+        if let Some(row) = worst.filter(|r| matches!(r.verdict, Verdict::Known(_)) || !args.all) {
             detail(row, args, out);
         }
     }

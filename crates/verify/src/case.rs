@@ -152,7 +152,7 @@ pub struct Case {
 /// How the numbers of a case are drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Style {
-    /// Within the soft ranges; roughness by its logarithm.
+    /// Within the soft ranges; roughness and ranges over two decades by the logarithm.
     Common,
     /// At an end of the ranges as often as not.
     Ends,
@@ -287,7 +287,12 @@ fn real(info: &ParamInfo, index: usize, style: Style, rng: &mut Random) -> f64 {
             _ => Real::exp(rng.within(Real::ln(least), Real::ln(bounded(info.range[1]).max(least)))),
         };
     }
-    rng.within(bounded(lo), bounded(hi))
+    let (lo, hi) = (bounded(lo), bounded(hi));
+    // Exponents and their like, whose small values matter as much as the large ones.
+    if lo > 0.0 && hi >= 100.0 * lo {
+        return Real::exp(rng.within(Real::ln(lo), Real::ln(hi)));
+    }
+    rng.within(lo, hi)
 }
 
 fn spectrum(info: &ParamInfo, shares: f64, style: Style, rng: &mut Random) -> Spectrum<f64> {

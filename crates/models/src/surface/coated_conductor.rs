@@ -195,6 +195,12 @@ impl<R: Real> CoatedConductor<R> {
         [albedo * scale, wide * scale]
     }
 
+    /// The probability of sampling the base; rounding alone would take it below zero.
+    #[inline(always)]
+    fn rest(p_coat: R, p_wide: R) -> R {
+        (R::ONE - p_coat - p_wide).max(R::ZERO)
+    }
+
     /// `f_cos` and density of two directions above.
     #[inline(always)]
     fn both(&self, wo: LocalDir<R>, wi: LocalDir<R>) -> (Spectrum<R>, R) {
@@ -212,7 +218,7 @@ impl<R: Real> CoatedConductor<R> {
 
         let [p_coat, p_wide] = self.shares(wo, albedo);
         let visible = self.ggx.visible_over_cos(inside.o, inside.m) * R::of(0.25) * squeeze / inside.i.z();
-        let p_base = R::ONE - p_coat - p_wide;
+        let p_base = Self::rest(p_coat, p_wide);
         let pdf = p_coat * self.coat.pdf(wo, wi) + p_wide * cosine + p_base * visible.only_where(rough);
         (base + coat + wide, pdf)
     }
@@ -275,7 +281,7 @@ impl<R: Real> Bsdf<R> for CoatedConductor<R> {
         let both = base + Spectrum::splat(albedo);
         let alone = Spectrum::select(coat, Spectrum::splat(albedo), base);
         let value = Spectrum::select(all_delta, both, Spectrum::select(delta, alone, f_cos));
-        let chosen = R::select(coat, p_coat, R::ONE - p_coat - p_wide);
+        let chosen = R::select(coat, p_coat, Self::rest(p_coat, p_wide));
         let density = R::select(all_delta, R::ONE, R::select(delta, chosen, pdf));
         let valid = o.above() & i.above() & density.gt(R::ZERO);
         BsdfSample {
