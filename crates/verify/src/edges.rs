@@ -3,7 +3,7 @@
 use sparrow_math::{LocalDir, Real, vec3};
 
 use crate::column::{Column, Dir};
-use crate::points::{fair, show};
+use crate::comparison::{fair, show};
 use crate::question::{ColumnName, Question};
 use crate::report::Finding;
 use crate::tally::sound;

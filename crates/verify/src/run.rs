@@ -8,8 +8,9 @@ use sparrow_math::LocalDir;
 use sparrow_models::{ParamInfo, ParamKind};
 use sparrow_stats::{Random, sidak};
 
-use crate::case::{Case, Pins, Style};
+use crate::case::{Case, Style};
 use crate::integrals::{self, Sizes, Spread, View};
+use crate::pins::Pins;
 use crate::report::{self, Answered, Finding, Report};
 use crate::subject::Subject;
 use crate::{edges, furnace, points, tally};
