@@ -43,7 +43,8 @@ pub(crate) fn ask(view: &View<'_>, findings: &mut Vec<Finding>) {
             let (mean, error) = energy.mean(k, SAMPLES as f64);
             ((mean - 1.0) / (SIGMAS * error + ROUNDING), mean, error)
         });
-        let worst = judged.fold((0.0, 0.0, 0.0), |a, b| if b.0 > a.0 || b.0.is_nan() { b } else { a });
+        let worst =
+            judged.fold((f64::NEG_INFINITY, 0.0, 0.0), |a, b| if b.0 > a.0 || b.0.is_nan() { b } else { a });
         let measured = format!("{what}, {:.5} +- {:.5} leaves", worst.1, worst.2);
         findings.push(Finding::new(Question::Furnace, ColumnName::F64, worst.0, measured));
     }
