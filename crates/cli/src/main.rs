@@ -3,7 +3,7 @@
 //! | code | means |
 //! | --- | --- |
 //! | 0 | done |
-//! | 1 | the user's input was wrong: a scene, a file, a folder |
+//! | 1 | the user's input was wrong: a scene, a file, a folder; or a model did not stand its trial |
 //! | 2 | the command line was wrong |
 //! | 130 | interrupted; what was rendered so far is saved |
 
@@ -14,6 +14,7 @@ mod images;
 mod info_cmd;
 mod interrupt;
 mod inventory;
+mod models_cmd;
 mod names;
 mod output;
 mod overrides;
@@ -23,6 +24,7 @@ mod process;
 mod progress;
 mod render_cmd;
 mod report;
+mod verify_cmd;
 
 use std::ffi::OsStr;
 use std::process::ExitCode;
@@ -41,6 +43,8 @@ fn main() -> ExitCode {
         Some(Verb::Render(a)) => (a.json, a.quiet, render_cmd::run(a)),
         Some(Verb::Info(a)) => (a.json, false, info_cmd::run(a)),
         Some(Verb::Plot(a)) => (a.json, a.quiet, plot_cmd::run(a)),
+        Some(Verb::Models(a)) => (a.json, false, models_cmd::run(a)),
+        Some(Verb::Verify(a)) => (a.json, false, verify_cmd::run(a)),
         None => {
             // A broken pipe is no reason to complain about the help that nobody reads.
             let _ = Cli::command().print_help();

@@ -92,7 +92,9 @@ impl<R: Real> Coat<R> {
     #[inline(always)]
     pub(crate) fn inside(&self, w: LocalDir<R>) -> LocalDir<R> {
         let v = w.v() * (R::ONE / self.eta);
-        let z = (R::ONE - v.x * v.x - v.y * v.y).safe_sqrt();
+        // z^2 = 1 - x^2 - y^2, without the cancellation at grazing angles under a coat of nearly no index.
+        let bent = (self.eta - R::ONE) * (self.eta + R::ONE) / self.eta.sqr();
+        let z = (v.z.sqr() + bent).safe_sqrt();
         LocalDir::new(Vec3 { z, ..v })
     }
 

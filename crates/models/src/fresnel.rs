@@ -8,12 +8,13 @@ use sparrow_math::Real;
 /// (F, `cos_t >= 0`); beyond the critical angle (1, 0). [Hecht, eq. 4.34, 4.40]
 #[inline(always)]
 pub fn dielectric<R: Real>(cos_i: R, eta: R) -> (R, R) {
-    let sin2_t = (R::ONE - cos_i * cos_i).max(R::ZERO) / (eta * eta);
-    let cos_t = (R::ONE - sin2_t).safe_sqrt();
+    // cos_t^2 = 1 - (1 - cos_i^2) / eta^2, without the cancellation at grazing angles and equal indices.
+    let cos2_t = (cos_i * cos_i + (eta - R::ONE) * (eta + R::ONE)) / (eta * eta);
+    let cos_t = cos2_t.safe_sqrt();
     let r_p = (eta * cos_i - cos_t) / (eta * cos_i + cos_t);
     let r_s = (cos_i - eta * cos_t) / (cos_i + eta * cos_t);
     let f = (r_p * r_p + r_s * r_s) * R::of(0.5);
-    let total = sin2_t.ge(R::ONE);
+    let total = cos2_t.le(R::ZERO);
     (R::select(total, R::ONE, f), R::select(total, R::ZERO, cos_t))
 }
 
@@ -36,10 +37,12 @@ pub fn conductor_polarized<R: Real>(cos_i: R, eta: R, k: R) -> (R, R) {
     let a = ((ab + t0) * R::of(0.5)).safe_sqrt();
     let t1 = ab + c2;
     let t2 = R::of(2.0) * a * cos_i;
-    let r_s = (t1 - t2) / (t1 + t2);
+    // Far below any other term; makes 0 / 0 one, which is what an index of zero reflects at any angle, and any index at grazing.
+    let tiny = R::of(1e-30);
+    let r_s = (t1 - t2 + tiny) / (t1 + t2 + tiny);
     let t3 = c2 * ab + s2 * s2;
     let t4 = t2 * s2;
-    (r_s, r_s * (t3 - t4) / (t3 + t4))
+    (r_s, r_s * ((t3 - t4 + tiny) / (t3 + t4 + tiny)))
 }
 
 /// `x^5`
@@ -134,6 +137,13 @@ mod tests {
     }
 
     #[test]
+    fn equal_indices_reflect_nothing_in_single_precision() {
+        for cos in [1.0_f32, 0.3, 0.01, 1e-4] {
+            assert!(dielectric(cos, 1.0).0 <= 0.0, "{cos}");
+        }
+    }
+
+    #[test]
     fn beyond_the_critical_angle_everything_is_reflected() {
         // asin(1 / 1.5) = 41.81 degrees.
         assert!(dielectric(at(41.0), 1.0 / 1.5).0 < 1.0);
@@ -152,6 +162,10 @@ mod tests {
         for (deg, want) in [(0.0, 0.92319), (75.0, 0.88541), (85.0, 0.90047)] {
             let f = conductor(at(deg), 0.77, 6.08);
             assert!((f - want).abs() < 1e-5, "{deg} degrees: {f}");
+        }
+        // An index of zero reflects everything, at the normal as well.
+        for cos in [1.0, 0.5, 0.0] {
+            assert!((conductor(cos, 0.0, 0.0) - 1.0_f64).abs() < 1e-15);
         }
         // Without absorption a conductor is a dielectric.
         assert!((conductor(at(60.0), 1.5, 0.0) - dielectric(at(60.0), 1.5).0).abs() < 1e-12);

@@ -48,5 +48,5 @@ mod v_cavity;
 
 pub use bsdf::{Bsdf, BsdfSample, Uniforms};
 pub use params::{MAX_CHOICES, MAX_REALS, MAX_SPECTRA, ParamBlock, ParamInfo, ParamKind};
-pub use registry::{About, Lack, Model};
+pub use registry::{About, Lack, Model, Property};
 pub use surface::{Surface, SurfaceKind};

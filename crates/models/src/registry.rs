@@ -1,14 +1,67 @@
 //! The macro that makes one table of models: the enum, its dispatch, the names and the constructor.
 
-use crate::{ParamBlock, ParamInfo};
+use crate::{ParamBlock, ParamInfo, ParamKind};
 
-/// A property that reflection ought to have and a model lacks.
+/// A property that reflection ought to have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Lack {
-    /// More light may leave than arrived.
+pub enum Property {
+    /// No more light leaves than arrived.
     Energy,
-    /// Viewer and light may not be exchanged.
+    /// Viewer and light may be exchanged.
     Reciprocity,
+}
+
+impl Property {
+    /// The words in lists and reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Property::Energy => "energy conservation",
+            Property::Reciprocity => "reciprocity",
+        }
+    }
+}
+
+/// A property that a model lacks, and for which of its choices.
+#[derive(Clone, Copy, Debug)]
+pub struct Lack {
+    /// What is missing.
+    pub property: Property,
+    /// Why.
+    pub reason: &'static str,
+    /// Parameters with those of their choices for which it is missing; all have to be met. Empty: always.
+    pub when: &'static [(&'static str, &'static [&'static str])],
+}
+
+impl Lack {
+    /// More light may leave than arrived, for this reason.
+    pub const fn energy(reason: &'static str) -> Lack {
+        Lack { property: Property::Energy, reason, when: &[] }
+    }
+    /// Viewer and light may not be exchanged, for this reason.
+    pub const fn reciprocity(reason: &'static str) -> Lack {
+        Lack { property: Property::Reciprocity, reason, when: &[] }
+    }
+    /// Only where every one of these parameters is at one of the choices named with it.
+    pub const fn when(mut self, when: &'static [(&'static str, &'static [&'static str])]) -> Lack {
+        self.when = when;
+        self
+    }
+    /// The choices, in the order of `table`, are such that the property is missing.
+    pub fn applies(&self, table: &[ParamInfo], choices: &[u8]) -> bool {
+        self.when
+            .iter()
+            .all(|(param, of)| chosen(table, choices, param).is_some_and(|name| of.contains(&name)))
+    }
+}
+
+/// The name that a choice of the table stands at.
+fn chosen(table: &[ParamInfo], choices: &[u8], param: &str) -> Option<&'static str> {
+    let all = table.iter().filter_map(|p| match p.kind {
+        ParamKind::Choice(names) => Some((p.name, names)),
+        ParamKind::Real | ParamKind::Albedo | ParamKind::Unbounded => None,
+    });
+    let ((_, names), place) = all.zip(choices).find(|((name, _), _)| *name == param)?;
+    names.get(usize::from(*place)).copied()
 }
 
 /// What a model is, for lists, help and the verifier.
@@ -18,8 +71,8 @@ pub struct About {
     pub summary: &'static str,
     /// Where it comes from, as keys of `docs/references.bib`.
     pub sources: &'static str,
-    /// What it lacks, each with the reason; the verifier shows these as known and everything else as a fault.
-    pub lacks: &'static [(Lack, &'static str)],
+    /// What it lacks; the verifier shows these as known and everything else as a fault.
+    pub lacks: &'static [Lack],
     /// The direction of the tangent matters.
     pub anisotropic: bool,
     /// Light passes to the other side.
@@ -41,8 +94,8 @@ impl About {
         self.transmits = true;
         self
     }
-    /// Says what is missing, and why.
-    pub const fn lacks(mut self, lacks: &'static [(Lack, &'static str)]) -> About {
+    /// Says what is missing, why, and for which choices.
+    pub const fn lacks(mut self, lacks: &'static [Lack]) -> About {
         self.lacks = lacks;
         self
     }

@@ -396,7 +396,7 @@ fn mirror_cylinders_return_what_tracing_finds() {
     }
 }
 
-/// Forms that lack nothing in a model whose other forms do: the conformance test leaves these models out.
+/// Forms that lack nothing in a model whose other forms do, at parameters chosen by hand.
 #[test]
 fn sound_forms_of_models_that_lack_something_keep_energy_and_reciprocity() {
     let sound = [

@@ -7,5 +7,6 @@ mod info;
 #[cfg(unix)]
 mod interrupts;
 mod plot;
+mod models;
 mod render;
 mod scratch;

@@ -16,7 +16,7 @@ use core::f64::consts::{FRAC_1_PI, PI};
 
 use sparrow_math::{LocalDir, Real, vec3};
 
-use super::special::{exp_m1_over, ln_1p_over};
+use super::special::{exp_m1_over, ln_1p_over, ln_cos};
 use super::{beckmann, smith};
 use crate::ggx::{ALPHA_SMOOTH, Ggx};
 
@@ -142,10 +142,8 @@ impl<R: Real> Ndf<R> {
                 front * ((-x).exp().only_where(x.lt(R::of(80.0)))) / z2.sqr()
             }
             NdfKind::Blinn => {
-                // z^2 = 1 - sin^2 keeps the digits of narrow lobes.
-                let y = -m.sin2_theta().min(R::ONE - z2);
-                let ln_z = R::of(0.5) * y * ln_1p_over(y);
-                (self.shape + R::of(2.0)) * R::of(0.5 / PI) * (self.shape * ln_z).exp()
+                let lobe = (self.shape * ln_cos(m.z(), m.sin2_theta())).exp();
+                (self.shape + R::of(2.0)) * R::of(0.5 / PI) * lobe
             }
             NdfKind::Gtr => {
                 let q = self.alpha_x.sqr();

@@ -117,13 +117,11 @@ pub fn exp_m1_over<R: Real>(x: R) -> R {
     R::select(small, series, (safe.exp() - R::ONE) / safe)
 }
 
-/// `ln(1 + y) / y`, 1 at 0; `y > -1`.
+/// [`ln_1p_over`] for `|y| < 0.4`.
 #[inline(always)]
-pub fn ln_1p_over<R: Real>(y: R) -> R {
-    // ln(1 + y) = 2 artanh(z), z = y / (2 + y); for |y| < 0.4 |z| < 1/4.
-    let small = y.abs().lt(R::of(0.4));
-    let s = R::select(small, y, R::ZERO);
-    let z2 = (s / (R::of(2.0) + s)).sqr();
+fn ln_1p_over_small<R: Real>(y: R) -> R {
+    // ln(1 + y) = 2 artanh(z), z = y / (2 + y); |z| < 1/4.
+    let z2 = (y / (R::of(2.0) + y)).sqr();
     let artanh_over = poly(
         z2,
         [
@@ -142,9 +140,25 @@ pub fn ln_1p_over<R: Real>(y: R) -> R {
             1.0,
         ],
     );
-    let series = R::of(2.0) * artanh_over / (R::of(2.0) + s);
+    R::of(2.0) * artanh_over / (R::of(2.0) + y)
+}
+
+/// `ln(1 + y) / y`, 1 at 0; `y > -1`.
+#[inline(always)]
+pub fn ln_1p_over<R: Real>(y: R) -> R {
+    let small = y.abs().lt(R::of(0.4));
+    let series = ln_1p_over_small(R::select(small, y, R::ZERO));
     let far = R::select(small, R::ONE, y);
     R::select(small, series, (R::ONE + far).max(R::of(1e-30)).ln() / far)
+}
+
+/// `ln cos` of an angle below a right one, from its cosine and the square of its sine: in narrow lobes the sine has the digits,
+/// towards the horizon the cosine.
+#[inline(always)]
+pub fn ln_cos<R: Real>(cos: R, sin2: R) -> R {
+    let narrow = sin2.lt(R::of(0.3));
+    let y = -R::select(narrow, sin2, R::ZERO);
+    R::select(narrow, R::of(0.5) * y * ln_1p_over_small(y), cos.max(R::of(1e-30)).ln())
 }
 
 /// What Stirling's formula for `ln Gamma(x)` leaves, for `x >= 7`: error below 1e-11. [AbramowitzStegun, 6.1.41]
@@ -248,6 +262,17 @@ mod tests {
         close(exp_m1_over(-3.0_f64) * -3.0, f64::exp_m1(-3.0), 1e-14);
         for y in [1e-9_f64, 0.1, 0.39, 0.41, 7.0, -0.3, -0.9] {
             close(ln_1p_over(y) * y, f64::ln_1p(y), 1e-14);
+        }
+    }
+
+    #[test]
+    fn the_logarithm_of_a_cosine_keeps_its_digits_in_single_precision() {
+        for theta in [1e-6_f64, 1e-3, 0.1, 0.57, 0.59, 1.2, 1.57] {
+            let (sin, cos) = Real::sin_cos(theta);
+            let want = 0.5 * f64::ln_1p(-sin * sin);
+            let got = f64::from(ln_cos(cos as f32, (sin * sin) as f32));
+            // A rounding of the cosine of 1.57, and some of the result.
+            assert!((got - want).abs() < 1e-6 * want.abs() + 6e-8, "{theta}: {got} {want}");
         }
     }
 

@@ -57,9 +57,10 @@ fn base_shape<R: Real>(cos: R) -> R {
 }
 
 impl<R: Real> AshikhminShirley<R> {
+    /// The highlight is weighted by what it reflects towards the viewer: at grazing views that is much, however dark it is.
     #[inline(always)]
-    fn lobes(&self) -> TwoLobes<R> {
-        TwoLobes::new(self.diffuse, self.specular)
+    fn lobes(&self, o: LocalDir<R>) -> TwoLobes<R> {
+        TwoLobes::new(self.diffuse, self.schlick(o.cos_theta().min(R::ONE)))
     }
     /// `sqrt((n_u + 1)(n_v + 1)) / (2 pi) (n.h)^e`, the density of half vectors. [AshikhminShirley2000]
     #[inline(always)]
@@ -67,7 +68,7 @@ impl<R: Real> AshikhminShirley<R> {
         let sin2 = m.sin2_theta();
         let slanted = sin2.gt(R::of(1e-20));
         let across = (self.n_u * m.x().sqr() + self.n_v * m.y().sqr()) / R::select(slanted, sin2, R::ONE);
-        let power = cosine_lobe::power(m.cos_theta().min(R::ONE), across);
+        let power = cosine_lobe::lobe(m.cos_theta(), sin2, across);
         ((self.n_u + R::ONE) * (self.n_v + R::ONE)).sqrt() * R::of(0.5 * FRAC_1_PI) * power
     }
     #[inline(always)]
@@ -89,7 +90,7 @@ impl<R: Real> Opaque for AshikhminShirley<R> {
         let f_s = F * (pdf / o.cos_theta().max(i.cos_theta()));
         let shape = R::of(28.0 / (23.0 * PI)) * base_shape(o.cos_theta()) * base_shape(i.cos_theta());
         let f_d = self.diffuse * (Spectrum::ONE - self.specular) * shape;
-        (f_s + f_d, self.lobes().density(i, pdf))
+        (f_s + f_d, self.lobes(o).density(i, pdf))
     }
 
     #[inline(always)]
@@ -97,8 +98,7 @@ impl<R: Real> Opaque for AshikhminShirley<R> {
         let (a, b) = ((self.n_v + R::ONE).sqrt(), (self.n_u + R::ONE).sqrt());
         let (c, s) = cosine_lobe::stretched_azimuth(u.dir[1], a, b);
         let n = self.n_u * c.sqr() + self.n_v * s.sqr();
-        let cos = cosine_lobe::power(R::ONE - u.dir[0], R::ONE / (n + R::ONE)).min(R::ONE);
-        let sin = ((R::ONE - cos) * (R::ONE + cos)).safe_sqrt();
-        self.lobes().pick(u, o.reflect(LocalDir::new(vec3(sin * c, sin * s, cos))))
+        let (sin, cos) = cosine_lobe::angle(u.dir[0], n);
+        self.lobes(o).pick(u, o.reflect(LocalDir::new(vec3(sin * c, sin * s, cos))))
     }
 }

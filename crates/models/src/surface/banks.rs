@@ -24,8 +24,8 @@ pub struct Banks<R> {
 impl<R: Real> Model<R> for Banks<R> {
     const ABOUT: About =
         About::new("parallel threads, shaded as curves", "Banks1994").anisotropic().lacks(&[
-            (Lack::Energy, "the highlight has no normalisation"),
-            (Lack::Reciprocity, "the diffuse term knows the light's direction alone"),
+            Lack::energy("the highlight has no normalisation"),
+            Lack::reciprocity("the diffuse term knows the light's direction alone"),
         ]);
     const PARAMS: &'static [ParamInfo] = &[
         ParamInfo::albedo("diffuse").default(0.3).doc("Strength of the diffuse term, kd."),
@@ -48,12 +48,17 @@ impl<R: Real> Model<R> for Banks<R> {
     }
 }
 
+/// `sqrt(1 - (t.w)^2)`
+#[inline(always)]
+fn across<R: Real>(w: LocalDir<R>) -> R {
+    (w.y().sqr() + w.z().sqr()).sqrt()
+}
+
 impl<R: Real> Opaque for Banks<R> {
     type R = R;
 
     #[inline(always)]
     fn eval(&self, o: LocalDir<R>, i: LocalDir<R>) -> (Spectrum<R>, R) {
-        let across = |w: LocalDir<R>| (w.y().sqr() + w.z().sqr()).sqrt();
         let diffuse = cosine_lobe::power(across(i).min(R::ONE), self.p);
         let mirrored = (across(o) * across(i) - o.x() * i.x()).min(R::ONE);
         let highlight = cosine_lobe::power(mirrored, self.n);

@@ -24,11 +24,9 @@ pub struct BlinnPhong<R> {
 }
 
 impl<R: Real> Model<R> for BlinnPhong<R> {
-    const ABOUT: About =
-        About::new("cosine-power lobe of the half vector", "Blinn1977, Phong1975").lacks(&[(
-            Lack::Energy,
-            "form `raw`: the lobe's light depends on its exponent and exceeds one below n = 19",
-        )]);
+    const ABOUT: About = About::new("cosine-power lobe of the half vector", "Blinn1977, Phong1975")
+        .lacks(&[Lack::energy("the raw lobe's light depends on its exponent and exceeds one below n = 19")
+            .when(&[("form", &["raw"])])]);
     const PARAMS: &'static [ParamInfo] = &[
         ParamInfo::albedo("diffuse").default(0.3).doc("Share of the light that the base reflects, kd."),
         ParamInfo::albedo("specular").default(0.3).doc("Strength of the lobe, ks."),
@@ -75,7 +73,7 @@ impl<R: Real> Opaque for BlinnPhong<R> {
     #[inline(always)]
     fn eval(&self, o: LocalDir<R>, i: LocalDir<R>) -> (Spectrum<R>, R) {
         let half = Half::new(o, i);
-        let lobe = cosine_lobe::power(half.m.cos_theta().min(R::ONE), self.n);
+        let lobe = cosine_lobe::lobe(half.m.cos_theta(), half.m.sin2_theta(), self.n);
         let f = self.diffuse * R::of(FRAC_1_PI) + self.specular * (self.factor() * lobe);
         let pdf_m = (self.n + R::ONE) * R::of(0.5 * FRAC_1_PI) * lobe;
         (f, self.lobes().density(i, pdf_m * half.jacobian()))

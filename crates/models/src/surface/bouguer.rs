@@ -24,9 +24,9 @@ pub struct Bouguer<R> {
 }
 
 impl<R: Real> Model<R> for Bouguer<R> {
-    const ABOUT: About = About::new("mirror facets that are matt at normal incidence", "Bouguer1760").lacks(
-        &[(Lack::Energy, "masking `none`: facets turned away are counted; above one beyond 70 degrees")],
-    );
+    const ABOUT: About = About::new("mirror facets that are matt at normal incidence", "Bouguer1760")
+        .lacks(&[Lack::energy("facets turned away are counted; above one beyond 70 degrees")
+            .when(&[("masking", &["none"])])]);
     const PARAMS: &'static [ParamInfo] = &[
         ParamInfo::albedo("reflectance").default(0.8).doc("Share of the light that a facet reflects."),
         ParamInfo::choice("masking", &["none", "v_cavity"]).doc("Which share of a facet is seen and lit."),

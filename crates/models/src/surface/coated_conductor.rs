@@ -112,10 +112,9 @@ impl<R: Real> CoatedConductor<R> {
     #[inline(always)]
     fn over(coat: Coat<R>, alpha_base: [R; 2], eta: Spectrum<R>, k: Spectrum<R>) -> Self {
         let bend = R::of(0.5) * (R::ONE - R::ONE / coat.eta).sqr();
-        let [x, y] = [0, 1].map(
-            #[inline(always)]
-            |j| (alpha_base[j].sqr() + bend * coat.alphas()[j].sqr()).sqrt(),
-        );
+        let [coat_x, coat_y] = coat.alphas();
+        let x = (alpha_base[0].sqr() + bend * coat_x.sqr()).sqrt();
+        let y = (alpha_base[1].sqr() + bend * coat_y.sqr()).sqrt();
         // Under a coat that is no mirror the base is none either.
         let least = R::select(coat.is_smooth(), R::ZERO, R::of(2.0 * ALPHA_SMOOTH));
         let ggx = Ggx::new(x.max(least), y.max(least));
@@ -195,6 +194,12 @@ impl<R: Real> CoatedConductor<R> {
         [albedo * scale, wide * scale]
     }
 
+    /// The probability of sampling the base; rounding alone would take it below zero.
+    #[inline(always)]
+    fn rest(p_coat: R, p_wide: R) -> R {
+        (R::ONE - p_coat - p_wide).max(R::ZERO)
+    }
+
     /// `f_cos` and density of two directions above.
     #[inline(always)]
     fn both(&self, wo: LocalDir<R>, wi: LocalDir<R>) -> (Spectrum<R>, R) {
@@ -212,7 +217,7 @@ impl<R: Real> CoatedConductor<R> {
 
         let [p_coat, p_wide] = self.shares(wo, albedo);
         let visible = self.ggx.visible_over_cos(inside.o, inside.m) * R::of(0.25) * squeeze / inside.i.z();
-        let p_base = R::ONE - p_coat - p_wide;
+        let p_base = Self::rest(p_coat, p_wide);
         let pdf = p_coat * self.coat.pdf(wo, wi) + p_wide * cosine + p_base * visible.only_where(rough);
         (base + coat + wide, pdf)
     }
@@ -225,7 +230,8 @@ impl<R: Real> CoatedConductor<R> {
         let m = Vec3::select(self.ggx.is_smooth(), up, self.ggx.sample_visible(o, u).v());
         let i = o.reflect(LocalDir::new(m));
         let v = i.v() * self.coat.eta;
-        let z2 = R::ONE - v.x * v.x - v.y * v.y;
+        // 1 - x^2 - y^2, with the digits of grazing directions.
+        let z2 = v.z.sqr() - (self.coat.eta - R::ONE) * (self.coat.eta + R::ONE);
         let out = i.above() & z2.gt(R::ZERO);
         // Where it is kept inside, what remains has unit length and lies below.
         LocalDir::new(Vec3::select(out, Vec3 { z: z2.safe_sqrt(), ..v }, -up))
@@ -274,7 +280,7 @@ impl<R: Real> Bsdf<R> for CoatedConductor<R> {
         let both = base + Spectrum::splat(albedo);
         let alone = Spectrum::select(coat, Spectrum::splat(albedo), base);
         let value = Spectrum::select(all_delta, both, Spectrum::select(delta, alone, f_cos));
-        let chosen = R::select(coat, p_coat, R::ONE - p_coat - p_wide);
+        let chosen = R::select(coat, p_coat, Self::rest(p_coat, p_wide));
         let density = R::select(all_delta, R::ONE, R::select(delta, chosen, pdf));
         let valid = o.above() & i.above() & density.gt(R::ZERO);
         BsdfSample {

@@ -6,13 +6,13 @@
 //! Errata: the paper divides by pi where 4 is right, and prints Beckmann's distribution without the 1/pi that makes the facets'
 //! projected area one. Together the printed lobe is four times too strong; `normalized` has both right.
 
-use core::f64::consts::FRAC_1_PI;
+use core::f64::consts::{FRAC_1_PI, PI};
 
-use sparrow_math::{LocalDir, Real};
+use sparrow_math::{LocalDir, Real, vec3};
 use sparrow_spectra::Spectrum;
 
 use crate::opaque::{Half, Opaque, TwoLobes, exp_neg};
-use crate::{About, Lack, Model, ParamBlock, ParamInfo, Uniforms, cosine_lobe, fresnel, v_cavity};
+use crate::{About, Lack, Model, ParamBlock, ParamInfo, Uniforms, fresnel, v_cavity};
 
 /// Narrowest slope width the formulas are evaluated with.
 const ALPHA_MIN: f64 = 1e-3;
@@ -30,8 +30,9 @@ pub struct CookTorrance<R> {
 
 impl<R: Real> Model<R> for CookTorrance<R> {
     const ABOUT: About =
-        About::new("Beckmann facets in V-grooves, as printed or put right", "CookTorrance1982")
-            .lacks(&[(Lack::Energy, "form `printed`: the lobe is four times too strong")]);
+        About::new("Beckmann facets in V-grooves, as printed or put right", "CookTorrance1982").lacks(&[
+            Lack::energy("the printed lobe is four times too strong").when(&[("form", &["printed"])]),
+        ]);
     const PARAMS: &'static [ParamInfo] = &[
         ParamInfo::real("alpha").default(0.3).soft(0.01, 0.7).doc("Root mean square slope m of the facets."),
         ParamInfo::real("specular").default(1.0).doc("Share s of the facets; the diffuse base has 1 - s."),
@@ -101,7 +102,10 @@ impl<R: Real> Opaque for CookTorrance<R> {
     #[inline(always)]
     fn draw(&self, o: LocalDir<R>, u: Uniforms<R>) -> LocalDir<R> {
         let tan2 = -self.alpha.sqr() * (R::ONE - u.dir[0]).max(R::of(1e-30)).ln();
+        // The sine by the tangent: by a cosine that rounds to one, narrow lobes would be drawn in steps.
         let cos = R::ONE / (R::ONE + tan2).sqrt();
-        self.lobes(o).pick(u, o.reflect(LocalDir::new(cosine_lobe::about_z(cos, u.dir[1]))))
+        let sin = tan2.safe_sqrt() * cos;
+        let (s, c) = (R::of(2.0 * PI) * u.dir[1]).sin_cos();
+        self.lobes(o).pick(u, o.reflect(LocalDir::new(vec3(sin * c, sin * s, cos))))
     }
 }

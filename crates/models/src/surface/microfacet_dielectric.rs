@@ -26,7 +26,7 @@ impl<R: Real> Model<R> for MicrofacetDielectric<R> {
     )
     .anisotropic()
     .transmits()
-    .lacks(&[(Lack::Energy, "masking \"none\" hides nothing")]);
+    .lacks(&[Lack::energy("facets hide nothing of each other").when(&[("masking", &["none"])])]);
     const PARAMS: &'static [ParamInfo] = &[
         ParamInfo::real("eta")
             .default(1.5)

@@ -43,12 +43,19 @@ impl<R: Real> Model<R> for MicrofacetReflection<R> {
     )
     .anisotropic()
     .lacks(&[
-        (
-            Lack::Energy,
-            "masking \"none\" hides nothing; blinn and gtr are masked as their nearest relatives; Kulla-Conty takes the \
-             albedo of the mean of two widths",
-        ),
-        (Lack::Reciprocity, "energy \"turquin\" scales by the albedo towards the viewer alone"),
+        Lack::energy("facets hide nothing of each other").when(&[("masking", &["none"])]),
+        Lack::energy("Smith's masking is that of the nearest relative")
+            .when(&[("ndf", &["blinn", "gtr"]), ("masking", &["smith", "separable"])]),
+        Lack::energy("the albedo is that of the mean of two widths").when(&[
+            ("ndf", &["ggx"]),
+            ("masking", &["smith"]),
+            ("energy", &["turquin", "kulla_conty"]),
+        ]),
+        Lack::reciprocity("scaled by the albedo towards the viewer alone").when(&[
+            ("ndf", &["ggx"]),
+            ("masking", &["smith"]),
+            ("energy", &["turquin"]),
+        ]),
     ]);
     const PARAMS: &'static [ParamInfo] = &[
         ParamInfo::choice("ndf", NdfKind::NAMES).doc("Distribution of the facets' normals."),

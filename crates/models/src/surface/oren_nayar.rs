@@ -27,8 +27,7 @@ pub struct OrenNayar<R> {
 
 impl<R: Real> Model<R> for OrenNayar<R> {
     const ABOUT: About =
-        About::new("rough diffuse reflection: Lambertian grooves", "OrenNayar1994").lacks(&[(
-            Lack::Energy,
+        About::new("rough diffuse reflection: Lambertian grooves", "OrenNayar1994").lacks(&[Lack::energy(
             "at grazing views the fits return up to 1.5 % (`qualitative`) and 5 % (`full`) more than arrived",
         )]);
     const PARAMS: &'static [ParamInfo] = &[

@@ -43,14 +43,10 @@ impl<R: Real> Model<R> for Phong<R> {
     const ABOUT: About =
         About::new("cosine-power lobe about the mirrored direction", "Phong1975, LafortuneWillems1994")
             .lacks(&[
-                (
-                    Lack::Energy,
-                    "forms `normalized` and `phong`: a grazing light is multiplied by 1 / cos theta_i",
-                ),
-                (
-                    Lack::Reciprocity,
-                    "forms `normalized` and `phong`: the value is divided by the light's cosine alone",
-                ),
+                Lack::energy("a grazing light is multiplied by 1 / cos theta_i")
+                    .when(&[("form", &["normalized", "phong"])]),
+                Lack::reciprocity("the value is divided by the light's cosine alone")
+                    .when(&[("form", &["normalized", "phong"])]),
             ]);
     const PARAMS: &'static [ParamInfo] = &[
         ParamInfo::albedo("diffuse").default(0.3).doc("Share of the light that the base reflects, kd."),
@@ -103,7 +99,10 @@ impl<R: Real> Opaque for Phong<R> {
 
     #[inline(always)]
     fn eval(&self, o: LocalDir<R>, i: LocalDir<R>) -> (Spectrum<R>, R) {
-        let lobe = cosine_lobe::power(mirrored(o).dot(i).min(R::ONE), self.n);
+        let mirror = mirrored(o);
+        // sin^2 a by the distance of both, which keeps the digits of narrow lobes.
+        let d2 = (mirror.v() - i.v()).length2();
+        let lobe = cosine_lobe::lobe(mirror.dot(i), d2 * (R::ONE - R::of(0.25) * d2), self.n);
         let f = self.diffuse * R::of(FRAC_1_PI) + self.specular * (self.factor(i) * lobe);
         let pdf = (self.n + R::ONE) / R::of(2.0 * PI) * lobe;
         (f, self.lobes().density(i, pdf))

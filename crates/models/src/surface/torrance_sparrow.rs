@@ -5,7 +5,8 @@
 //! with the fit for a Gaussian surface of the same curvature at its top [Walter2007, eq. 27]; or V-grooves [Blinn1977].
 //! `fresnel` chooses F: exact for a complex index (zero k is a dielectric), or the constant `reflectance`.
 //!
-//! Limits: single scattering. Without masking the value grows without bound towards grazing. The model as it was published
+//! Limits: single scattering. Smith's term fits narrow distributions: at an exponent of 20 it gains 0.1 % at grazing views, at 5
+//! 8 %, at 0 a third. Without masking the value grows without bound towards grazing. The model as it was published
 //! is `torrance_sparrow_1967`.
 
 use core::f64::consts::FRAC_1_PI;
@@ -41,10 +42,13 @@ impl<R: Real> Model<R> for TorranceSparrow<R> {
         "microfacets as in the lecture: D = cos^s, with choices",
         "TorranceSparrow1967, Blinn1977, Walter2007",
     )
-    .lacks(&[(
-        Lack::Energy,
-        "masking `none` grows without bound at grazing angles; `unnormalized` has the wrong facet area",
-    )]);
+    .lacks(&[
+        Lack::energy("without masking the value grows without bound at grazing angles")
+            .when(&[("masking", &["none"])]),
+        Lack::energy("the masking is that of a Gaussian surface, too open for exponents below 20: up to a third is gained")
+            .when(&[("masking", &["smith"])]),
+        Lack::energy("the facets have the wrong area").when(&[("distribution", &["unnormalized"])]),
+    ]);
     const PARAMS: &'static [ParamInfo] = &[
         ParamInfo::real("exponent")
             .default(50.0)
@@ -126,7 +130,7 @@ impl<R: Real> Opaque for TorranceSparrow<R> {
     fn eval(&self, o: LocalDir<R>, i: LocalDir<R>) -> (Spectrum<R>, R) {
         let half = Half::new(o, i);
         let cos_alpha = half.m.cos_theta().min(R::ONE);
-        let lobe = cosine_lobe::power(cos_alpha, self.s);
+        let lobe = cosine_lobe::lobe(cos_alpha, half.m.sin2_theta(), self.s);
         let unit = (self.s + R::of(2.0)) * R::of(0.5 * FRAC_1_PI);
         let D = if self.normalized { unit * lobe } else { lobe };
         let SS = self.masking_over_4cos(o, i, &half);

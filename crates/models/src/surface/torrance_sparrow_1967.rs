@@ -35,10 +35,7 @@ impl<R: Real> Model<R> for TorranceSparrow1967<R> {
         "Torrance and Sparrow as published: Gaussian V-grooves and a diffuse term",
         "TorranceSparrow1967",
     )
-    .lacks(&[(
-        Lack::Energy,
-        "the diffuse term is added to what the facets reflect; a `given` scale is free",
-    )]);
+    .lacks(&[Lack::energy("the diffuse term is added to what the facets reflect; a `given` scale is free")]);
     const PARAMS: &'static [ParamInfo] = &[
         ParamInfo::real("c_per_deg")
             .unit("1/deg")

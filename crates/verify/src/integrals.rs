@@ -6,7 +6,8 @@ use sparrow_stats::cubature::Stop;
 use sparrow_stats::{Cell, Partition, Random, chi_square};
 
 use crate::column::{Column, Dir, Value};
-use crate::question::{ColumnName, Finding, Question};
+use crate::question::{ColumnName, Question};
+use crate::report::Finding;
 use crate::tally::{Tally, stream};
 
 /// Samples from which cells are made.
@@ -15,8 +16,8 @@ const SCOUTS: usize = 1 << 14;
 const CELLS: usize = 1024;
 /// Standard errors that a mean may be off by: one in two million does so by chance.
 const SIGMAS: f64 = 5.0;
-/// Most evaluations of an integral.
-const EVALUATIONS: usize = 1_200_000;
+/// Most evaluations of an integral: six for every five samples, within these bounds. Chance then hides what is left.
+const EVALUATIONS: [usize; 2] = [400_000, 1_200_000];
 /// Single precision moves directions and densities: no cell is cut where half of its samples lie within this many
 /// radians, 4000 times the rounding of a component.
 const FINEST_F32: f64 = 5e-4;
@@ -92,7 +93,7 @@ pub(crate) fn ask(view: &View<'_>, sizes: Sizes, findings: &mut Vec<Finding>) ->
             scouts.push(s.wi);
         }
     });
-    let fine = expect(view, &**double, &scouts, 0.0);
+    let fine = expect(view, &**double, &scouts, 0.0, sizes.samples);
     // Made only where a column needs it.
     let mut coarse = None;
     let mut spread = Spread { largest: 0.0, efficiency: 1.0 };
@@ -101,7 +102,7 @@ pub(crate) fn ask(view: &View<'_>, sizes: Sizes, findings: &mut Vec<Finding>) ->
         let expected = match name {
             ColumnName::F64 => &fine,
             ColumnName::F32 | ColumnName::Lanes => {
-                &*coarse.get_or_insert_with(|| expect(view, &**double, &scouts, FINEST_F32))
+                &*coarse.get_or_insert_with(|| expect(view, &**double, &scouts, FINEST_F32, sizes.samples))
             }
         };
         // Both columns of single precision take the same numbers.
@@ -118,7 +119,7 @@ pub(crate) fn ask(view: &View<'_>, sizes: Sizes, findings: &mut Vec<Finding>) ->
     spread
 }
 
-fn expect(view: &View<'_>, column: &dyn Column, scouts: &[Dir], finest: f64) -> Expected {
+fn expect(view: &View<'_>, column: &dyn Column, scouts: &[Dir], finest: f64, samples: usize) -> Expected {
     let mirror = Real::atan2(-view.wo.y(), -view.wo.x());
     let cells = Partition::new(scouts, CELLS, mirror, finest);
     let value = std::cell::RefCell::new(Vec::<Value>::with_capacity(1));
@@ -128,7 +129,9 @@ fn expect(view: &View<'_>, column: &dyn Column, scouts: &[Dir], finest: f64) -> 
         let (v, squeeze) = (value[0], view.squeeze(wi));
         [v.pdf, v.f_cos[0] * squeeze, v.f_cos[1] * squeeze, v.f_cos[2] * squeeze, v.f_cos[3] * squeeze]
     };
-    let integral = cells.integrate(integrand, Stop { error: 1e-5, evaluations: EVALUATIONS });
+    let [least, most] = EVALUATIONS;
+    let stop = Stop { error: 1e-5, evaluations: (samples / 5 * 6).clamp(least, most) };
+    let integral = cells.integrate(integrand, stop);
     let t = integral.total();
     let mut pdf: Vec<f64> = integral.value.iter().map(|v| v[0]).collect();
     pdf.resize(cells.len(), 0.0);

@@ -205,7 +205,7 @@ impl<R: Real<Mask = bool>> Bsdf<R> for Metal<R> {
             weight = weight / wi.abs_cos_theta().max(R::of(1e-9));
         }
         if self.has(Fault::WeightTooLarge) {
-            weight = weight * R::of(1.02);
+            weight *= R::of(1.02);
         }
         if self.has(Fault::DensityOfChosenLobe) {
             let lobe = self.lobe_pdf(o, i);

@@ -36,7 +36,10 @@ fn a_model_that_holds_ends_with_0() {
     assert_eq!(one["models"][0]["rows"], two["models"][0]["rows"]);
     let rows = one["models"][0]["rows"].as_array().unwrap();
     assert_eq!(rows.len(), 27);
-    assert!(rows.iter().all(|r| r["verdict"] == "pass"), "{rows:?}");
+    // Double precision has nobody to agree with.
+    let asked: Vec<_> = rows.iter().filter(|r| r["verdict"] != "not_asked").collect();
+    assert_eq!(asked.len(), 26);
+    assert!(asked.iter().all(|r| r["verdict"] == "pass"), "{rows:?}");
 }
 
 #[test]
@@ -53,11 +56,32 @@ fn light_from_nothing_ends_with_1() {
 }
 
 #[test]
+fn a_lack_excuses_the_choices_it_is_said_of_and_no_others() {
+    let s = Scratch::new();
+    let about = s.run("models cook_torrance --json").ok().json();
+    assert_eq!(about["lacks"][0]["when"], serde_json::json!({ "form": ["printed"] }));
+    assert!(s.run("models cook_torrance").ok().out.contains("energy conservation where form is printed:"));
+    let verdict = |form: &str| {
+        let words = format!("verify cook_torrance diffuse=1 eta=0 form={form} wo=10,0 --samples 5000 --json");
+        let model = s.run(&words).ok().json()["models"][0].clone();
+        let furnace = model["rows"].as_array().unwrap().iter().find(|r| r["question"] == "furnace").unwrap();
+        (furnace["verdict"].clone(), model["claims"][0]["found"].clone())
+    };
+    assert_eq!(verdict("printed"), ("known".into(), 1.into()));
+    assert_eq!(verdict("normalized"), ("pass".into(), 0.into()));
+    // A claim that nothing bears out is told: at a reflectance of a tenth four times too much is no gain.
+    let quiet =
+        s.run("verify cook_torrance specular=0.1 diffuse=0 form=printed wo=10,0 --samples 5000").ok().out;
+    assert!(quiet.contains("said to lack energy conservation"), "{quiet}");
+}
+
+#[test]
 fn what_cannot_be_asked_is_told() {
     let s = Scratch::new();
     for (words, told) in [
         ("verify", "name one model, or give --all"),
         ("verify chrome", "there is no model `chrome`"),
+        ("verify lambret", "did you mean `lambert`?"),
         ("verify lambert shine=1", "no parameter `shine`; there are reflectance, wo"),
         ("verify lambert reflectance=2", "give a number from 0 to 1"),
         ("models chrome", "`sparrow models` lists them"),

@@ -18,16 +18,22 @@
 
 mod case;
 mod column;
+mod comparison;
 mod edges;
+mod furnace;
 mod integrals;
+mod pins;
 mod points;
 mod question;
+mod report;
 mod run;
 mod subject;
 mod tally;
 
-pub use case::{Case, PinError, Pins};
+pub use case::Case;
 pub use column::{Batch, Column, Drawn, Scalar, Value, narrow};
-pub use question::{ColumnName, Question, Report, Row, Verdict};
+pub use pins::{PinError, Pins, nearest};
+pub use question::{ColumnName, Question};
+pub use report::{Claim, Report, Row, Verdict};
 pub use run::{Options, verify};
 pub use subject::Subject;

@@ -1,4 +1,4 @@
-//! Cases: parameters and a view, named by the user or drawn from the model's table.
+//! Cases: parameters and a view, pinned by the user or drawn from the model's table.
 
 use std::fmt::Write;
 
@@ -7,126 +7,14 @@ use sparrow_models::{ParamBlock, ParamInfo, ParamKind};
 use sparrow_spectra::{N_LAMBDA, Spectrum};
 use sparrow_stats::Random;
 
+use crate::pins::{Pin, Pins};
+
 /// Narrowest roughness that is drawn.
 const LEAST_ROUGHNESS: f64 = 1e-3;
 /// Largest value drawn for what has no upper bound.
 const LARGEST: f64 = 8.0;
 /// Cosines of the views that are drawn, from the normal to grazing.
 const COSINES: [f64; 8] = [1.0, 0.5, 1e-3, 0.9, 0.1, 0.01, 0.7, 0.3];
-
-/// A parameter on the command line that cannot be used.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum PinError {
-    /// Not of the form `NAME=VALUE`.
-    #[error("`{0}` is no parameter; write NAME=VALUE")]
-    Form(String),
-    /// The model has no such parameter.
-    #[error("no parameter `{name}`; there are {known}")]
-    Unknown {
-        /// The name given.
-        name: String,
-        /// The names there are.
-        known: String,
-    },
-    /// The value cannot be read.
-    #[error("`{name}={value}`: give {form}")]
-    Value {
-        /// The name given.
-        name: String,
-        /// The value given.
-        value: String,
-        /// What would be accepted.
-        form: String,
-    },
-}
-
-/// What the user named: parameters in the order of the table, and the view in degrees.
-#[derive(Clone, Debug, Default)]
-pub struct Pins {
-    values: Vec<Option<Pin>>,
-    view: Option<[f64; 2]>,
-}
-
-#[derive(Clone, Copy, Debug)]
-enum Pin {
-    Real(f64),
-    Spectrum([f64; N_LAMBDA]),
-    Choice(u8),
-}
-
-impl Pins {
-    /// Reads `NAME=VALUE`: a number, four numbers with commas for the wavelengths of a spectrum, a name of a choice;
-    /// `wo=THETA,PHI` in degrees is the view.
-    ///
-    /// # Errors
-    /// Where a name is unknown, or a value is none or out of range.
-    pub fn parse(table: &[ParamInfo], words: &[impl AsRef<str>]) -> Result<Pins, PinError> {
-        let mut pins = Pins { values: vec![None; table.len()], view: None };
-        for word in words {
-            let word = word.as_ref();
-            let (name, value) = word.split_once('=').ok_or_else(|| PinError::Form(word.to_owned()))?;
-            let wrong =
-                |form: String| PinError::Value { name: name.to_owned(), value: value.to_owned(), form };
-            if name == "wo" {
-                let angles = numbers(value).filter(|v| v.len() == 2 && (0.0..=180.0).contains(&v[0]));
-                let angles =
-                    angles.ok_or_else(|| wrong("THETA,PHI in degrees, THETA from 0 to 180".into()))?;
-                pins.view = Some([angles[0], angles[1]]);
-                continue;
-            }
-            let Some(i) = table.iter().position(|p| p.name == name) else {
-                let mut known: Vec<&str> = table.iter().map(|p| p.name).collect();
-                known.push("wo");
-                return Err(PinError::Unknown { name: name.to_owned(), known: known.join(", ") });
-            };
-            pins.values[i] = Some(pin(&table[i], value).ok_or_else(|| wrong(form(&table[i])))?);
-        }
-        Ok(pins)
-    }
-    /// Nothing was named.
-    pub fn is_empty(&self) -> bool {
-        self.view.is_none() && self.values.iter().all(Option::is_none)
-    }
-    /// The view was named.
-    pub(crate) fn has_view(&self) -> bool {
-        self.view.is_some()
-    }
-}
-
-fn numbers(text: &str) -> Option<Vec<f64>> {
-    text.split(',').map(|v| v.trim().parse().ok().filter(|v: &f64| v.is_finite())).collect()
-}
-
-fn pin(info: &ParamInfo, value: &str) -> Option<Pin> {
-    if let ParamKind::Choice(names) = info.kind {
-        return names.iter().position(|n| *n == value).map(|k| Pin::Choice(k as u8));
-    }
-    let v = numbers(value)?;
-    // Single precision may round a bound to just beyond it.
-    let slack = |b: f64| 1e-6 * b.abs();
-    if v.iter()
-        .any(|v| *v < info.range[0] - slack(info.range[0]) || *v > info.range[1] + slack(info.range[1]))
-    {
-        return None;
-    }
-    match (info.kind, v.as_slice()) {
-        (ParamKind::Real, [v]) => Some(Pin::Real(*v)),
-        (ParamKind::Albedo | ParamKind::Unbounded, [v]) => Some(Pin::Spectrum([*v; N_LAMBDA])),
-        (ParamKind::Albedo | ParamKind::Unbounded, [a, b, c, d]) => Some(Pin::Spectrum([*a, *b, *c, *d])),
-        _ => None,
-    }
-}
-
-fn form(info: &ParamInfo) -> String {
-    let [lo, hi] = info.range;
-    match info.kind {
-        ParamKind::Real => format!("a number from {lo} to {hi}"),
-        ParamKind::Albedo | ParamKind::Unbounded => {
-            format!("a number from {lo} to {hi}, or four with commas")
-        }
-        ParamKind::Choice(names) => format!("one of {}", names.join(", ")),
-    }
-}
 
 /// Parameters and a view.
 #[derive(Clone, Debug)]
@@ -141,10 +29,12 @@ pub struct Case {
 /// How the numbers of a case are drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Style {
-    /// Within the soft ranges; roughness by its logarithm.
+    /// Within the soft ranges; roughness and ranges over two decades by the logarithm.
     Common,
     /// At an end of the ranges as often as not.
     Ends,
+    /// At an end as well, and nothing absorbs: one albedo is one, the others are zero, indices of refraction are zero.
+    White,
 }
 
 impl Case {
@@ -157,7 +47,9 @@ impl Case {
         rng: &mut Random,
     ) -> Case {
         let mut params = ParamBlock::<f64>::defaults(table);
-        let shares = table.iter().filter(|p| p.kind == ParamKind::Albedo).count().max(1) as f64;
+        let shares = table.iter().filter(|p| p.kind == ParamKind::Albedo).count().max(1);
+        let white = (style == Style::White).then(|| rng.below(shares));
+        let mut albedos = 0;
         let (mut r, mut s, mut c) = (0, 0, 0);
         for (place, info) in table.iter().enumerate() {
             let pinned = pins.values.get(place).copied().flatten();
@@ -174,16 +66,22 @@ impl Case {
                 ParamKind::Albedo | ParamKind::Unbounded => {
                     params.spectra[s] = match pinned {
                         Some(Pin::Spectrum(v)) => Spectrum(v),
-                        _ if free => spectrum(info, shares, style, rng),
+                        _ if free => match white {
+                            Some(of) => {
+                                let one = info.kind == ParamKind::Albedo && of == albedos;
+                                Spectrum::splat(if one { 1.0 } else { info.range[0] })
+                            }
+                            None => spectrum(info, shares as f64, style, rng),
+                        },
                         _ => params.spectra[s],
                     };
+                    albedos += usize::from(info.kind == ParamKind::Albedo);
                     s += 1;
                 }
                 ParamKind::Choice(names) => {
                     params.choices[c] = match pinned {
                         Some(Pin::Choice(k)) => k,
-                        // Every name has its turn; the second round pairs them differently.
-                        _ if free => ((index + (index / names.len()) * (c + 1)) % names.len()) as u8,
+                        _ if free => turn(index, c, names.len()),
                         _ => params.choices[c],
                     };
                     c += 1;
@@ -236,6 +134,13 @@ impl Case {
     }
 }
 
+/// The `index`-th choice among `n`: multiples of irrational numbers reach every name soon, and pair each with each.
+fn turn(index: usize, parameter: usize, n: usize) -> u8 {
+    const STEPS: [f64; 6] = [2.0, 3.0, 5.0, 7.0, 11.0, 13.0];
+    let x = 0.5 + index as f64 * STEPS[parameter % STEPS.len()].sqrt();
+    ((x.fract() * n as f64) as usize).min(n - 1) as u8
+}
+
 fn is_roughness(info: &ParamInfo) -> bool {
     info.name.starts_with("alpha") || info.name.contains("roughness")
 }
@@ -243,7 +148,7 @@ fn is_roughness(info: &ParamInfo) -> bool {
 fn real(info: &ParamInfo, index: usize, style: Style, rng: &mut Random) -> f64 {
     let [lo, hi] = [info.soft[0].max(info.range[0]), info.soft[1].min(info.range[1])];
     let bounded = |v: f64| if v.is_finite() { v } else { LARGEST };
-    if style == Style::Ends {
+    if style != Style::Common {
         let ends = [bounded(info.range[0]), bounded(info.range[1]), LEAST_ROUGHNESS.max(info.range[0])];
         match rng.below(5) {
             k @ 0..2 => return ends[k],
@@ -254,12 +159,17 @@ fn real(info: &ParamInfo, index: usize, style: Style, rng: &mut Random) -> f64 {
     if is_roughness(info) {
         let least = LEAST_ROUGHNESS.max(info.range[0]);
         // The narrowest has cases of its own.
-        return match index % 4 {
-            1 => least,
+        return match index {
+            1 | 5 => least,
             _ => Real::exp(rng.within(Real::ln(least), Real::ln(bounded(info.range[1]).max(least)))),
         };
     }
-    rng.within(bounded(lo), bounded(hi))
+    let (lo, hi) = (bounded(lo), bounded(hi));
+    // Exponents and their like, whose small values matter as much as the large ones.
+    if lo > 0.0 && hi >= 100.0 * lo {
+        return Real::exp(rng.within(Real::ln(lo), Real::ln(hi)));
+    }
+    rng.within(lo, hi)
 }
 
 fn spectrum(info: &ParamInfo, shares: f64, style: Style, rng: &mut Random) -> Spectrum<f64> {
@@ -310,17 +220,6 @@ mod tests {
             assert_eq!(case.params.reals.map(f64::to_bits), again.params.reals.map(f64::to_bits));
             assert_eq!(case.wo(), again.wo());
         }
-    }
-
-    #[test]
-    fn what_cannot_be_read_is_told() {
-        let told = |w: &str| Pins::parse(TABLE, &[w]).unwrap_err().to_string();
-        assert_eq!(told("alpha"), "`alpha` is no parameter; write NAME=VALUE");
-        assert_eq!(told("alfa=1"), "no parameter `alfa`; there are alpha, rho, kind, wo");
-        assert_eq!(told("alpha=2"), "`alpha=2`: give a number from 0 to 1");
-        assert_eq!(told("rho=1,0"), "`rho=1,0`: give a number from 0 to 1, or four with commas");
-        assert_eq!(told("kind=three"), "`kind=three`: give one of one, two");
-        assert!(told("wo=200,0").contains("THETA,PHI"));
     }
 
     #[test]

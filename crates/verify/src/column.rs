@@ -30,6 +30,10 @@ pub struct Drawn {
 }
 
 impl Drawn {
+    /// `weight eta^2`: radiance is squeezed where the index grows, energy is not.
+    pub(crate) fn energy(&self) -> [f64; N_LAMBDA] {
+        self.weight.map(|w| w * self.eta * self.eta)
+    }
     /// From a lobe with a density.
     pub(crate) fn is_smooth(&self) -> bool {
         self.valid && !self.delta

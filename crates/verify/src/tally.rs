@@ -26,7 +26,7 @@ pub(crate) struct Tally {
     pub(crate) broken: Option<Drawn>,
 }
 
-/// Moments of `weight eta^2` per wavelength; samples without are zeros.
+/// Moments of energy per wavelength; samples without are zeros.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Energy {
     sum: [f64; N_LAMBDA],
@@ -35,10 +35,9 @@ pub(crate) struct Energy {
 }
 
 impl Energy {
-    fn add(&mut self, s: &Drawn) {
-        let squeeze = s.eta * s.eta;
-        for k in 0..N_LAMBDA {
-            let w = s.weight[k] * squeeze;
+    /// Of one sample.
+    pub(crate) fn add(&mut self, energy: [f64; N_LAMBDA]) {
+        for (k, w) in energy.into_iter().enumerate() {
             self.sum[k] += w;
             self.sum2[k] += w * w;
             self.largest[k] = self.largest[k].max(w);
@@ -96,11 +95,11 @@ impl Tally {
             }
             t.weights.add(s.weight.iter().sum::<f64>() / N_LAMBDA as f64);
             if s.delta {
-                t.delta.add(s);
+                t.delta.add(s.energy());
             } else {
                 t.kept += 1.0;
                 t.counts[cells.locate(s.wi)] += 1.0;
-                t.smooth.add(s);
+                t.smooth.add(s.energy());
             }
         });
         t

@@ -3,8 +3,9 @@
 use sparrow_math::{LocalDir, Real, vec3};
 
 use crate::column::{Column, Dir};
-use crate::points::{fair, show};
-use crate::question::{ColumnName, Finding, Question};
+use crate::comparison::{fair, show};
+use crate::question::{ColumnName, Question};
+use crate::report::Finding;
 use crate::tally::sound;
 
 /// Cosines of the views, on both sides.

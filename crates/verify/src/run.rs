@@ -5,13 +5,15 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
 use sparrow_math::LocalDir;
+use sparrow_models::{ParamInfo, ParamKind};
 use sparrow_stats::{Random, sidak};
 
-use crate::case::{Case, Pins, Style};
+use crate::case::{Case, Style};
 use crate::integrals::{self, Sizes, Spread, View};
-use crate::question::{Finding, Report, rows};
+use crate::pins::Pins;
+use crate::report::{self, Answered, Finding, Report};
 use crate::subject::Subject;
-use crate::{edges, points, tally};
+use crate::{edges, furnace, points, tally};
 
 /// Chance of any false alarm among all chi-square tests of a model.
 const FALSE_ALARMS: f64 = 1e-4;
@@ -63,15 +65,19 @@ pub fn verify(
     let jobs = jobs(subjects, pins, options);
     let done: Vec<Mutex<Option<Done>>> = jobs.iter().map(|_| Mutex::new(None)).collect();
     let (next, finished) = (AtomicUsize::new(0), AtomicUsize::new(0));
-    let tests = 3 * jobs.iter().filter(|j| j.full && j.subject == 0).count();
-    let sizes = Sizes { samples: options.samples.max(1000), level: sidak(FALSE_ALARMS, tests) };
+    let samples = options.samples.max(1000);
+    let sizes = |subject: usize| {
+        let tests = 3 * jobs.iter().filter(|j| j.full && j.subject == subject).count();
+        Sizes { samples, level: sidak(FALSE_ALARMS, tests) }
+    };
+    let sizes: Vec<Sizes> = (0..subjects.len()).map(sizes).collect();
     std::thread::scope(|scope| {
         for _ in 0..options.threads.max(1) {
             scope.spawn(|| {
                 loop {
                     let i = next.fetch_add(1, Ordering::Relaxed);
                     let Some(job) = jobs.get(i) else { break };
-                    let answer = work(subjects[job.subject], job, sizes, options.seed);
+                    let answer = work(subjects[job.subject], job, sizes[job.subject], options.seed);
                     if let Ok(mut slot) = done[i].lock() {
                         *slot = Some(answer);
                     }
@@ -84,14 +90,12 @@ pub fn verify(
     let report = |(s, subject): (usize, &&dyn Subject)| {
         let mine = jobs.iter().zip(&answers).filter(|(j, _)| j.subject == s);
         let mine: Vec<(&Job, &Done)> = mine.filter_map(|(j, d)| Some((j, d.as_ref()?))).collect();
-        let findings: Vec<(String, Vec<Finding>)> = mine
-            .iter()
-            .map(|(j, d)| (format!("{} {}", subject.name(), j.case.words()), d.findings.clone()))
-            .collect();
+        let answers: Vec<Answered<'_>> = mine.iter().map(|(j, d)| (&j.case, d.findings.as_slice())).collect();
         Report {
             model: subject.name(),
-            samples: sizes.samples,
-            rows: rows(&subject.about(), &findings),
+            samples,
+            rows: report::rows(*subject, &answers),
+            claims: report::claims(*subject, &answers),
             largest_weight: mine.iter().map(|(_, d)| d.spread.largest).fold(0.0, f64::max),
             least_efficiency: mine.iter().map(|(_, d)| d.spread.efficiency).fold(1.0, f64::min),
             seconds: mine.iter().map(|(_, d)| d.seconds).sum(),
@@ -105,9 +109,11 @@ fn jobs(subjects: &[&dyn Subject], pins: &Pins, options: &Options) -> Vec<Job> {
     let mut jobs = Vec::new();
     for full in [true, false] {
         for (subject, s) in subjects.iter().enumerate() {
+            let names = names(*s);
             let n = match (pins.is_empty(), pins.has_view()) {
-                (true, _) if full => options.cases,
-                (true, _) => options.points,
+                // Many choices take many cases to pair.
+                (true, _) if full => options.cases.max(options.cases * names / 16),
+                (true, _) => options.points.max(options.points * names / 8),
                 // The same parameters from every angle.
                 (false, false) if full => options.cases,
                 (false, true) if full => 1,
@@ -116,8 +122,12 @@ fn jobs(subjects: &[&dyn Subject], pins: &Pins, options: &Options) -> Vec<Job> {
             let purpose = if full { "full" } else { "points" };
             for index in 0..n {
                 let mut rng = Random::named(options.seed, &format!("{} {purpose} {index}", s.name()));
-                let ends = !full && index % 2 == 1;
-                let style = if ends { Style::Ends } else { Style::Common };
+                let style = match (full, index % 4) {
+                    (true, 2) | (false, 2) => Style::White,
+                    (true, 0) if index > 0 => Style::White,
+                    (false, 1 | 3) => Style::Ends,
+                    _ => Style::Common,
+                };
                 // Points begin where the full cases stop, with other angles.
                 let index = if full { index } else { index + 1 };
                 let case = Case::draw(s.params(), pins, index, style, &mut rng);
@@ -126,6 +136,15 @@ fn jobs(subjects: &[&dyn Subject], pins: &Pins, options: &Options) -> Vec<Job> {
         }
     }
     jobs
+}
+
+/// Number of names of all choices together.
+fn names(subject: &dyn Subject) -> usize {
+    let of = |p: &ParamInfo| match p.kind {
+        ParamKind::Choice(names) => names.len(),
+        ParamKind::Real | ParamKind::Albedo | ParamKind::Unbounded => 0,
+    };
+    subject.params().iter().map(of).sum()
 }
 
 fn work(subject: &dyn Subject, job: &Job, sizes: Sizes, seed: u64) -> Done {
@@ -138,6 +157,7 @@ fn work(subject: &dyn Subject, job: &Job, sizes: Sizes, seed: u64) -> Done {
     let mut findings = Vec::new();
     edges::ask(&columns, &mut findings);
     points::ask(&view, &mut findings);
+    furnace::ask(&view, &mut findings);
     let mut spread = Spread { largest: 0.0, efficiency: 1.0 };
     if job.full {
         spread = integrals::ask(&view, sizes, &mut findings);

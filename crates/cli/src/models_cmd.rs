@@ -1,9 +1,10 @@
 //! `sparrow models`: what there is, from the models' own tables.
 
+use std::collections::BTreeMap;
 use std::fmt::Write;
 
 use serde::Serialize;
-use sparrow_models::{Lack, ParamInfo, ParamKind, SurfaceKind};
+use sparrow_models::{Lack, ParamInfo, ParamKind, Property, SurfaceKind};
 
 use crate::args::ModelsArgs;
 use crate::console;
@@ -15,6 +16,7 @@ struct Model {
     name: &'static str,
     summary: &'static str,
     sources: Vec<&'static str>,
+    /// For every choice; so are the others.
     reciprocal: bool,
     energy_conserving: bool,
     anisotropic: bool,
@@ -27,6 +29,8 @@ struct Model {
 struct Missing {
     property: &'static str,
     reason: &'static str,
+    /// Parameters with the choices for which it is missing; empty: always.
+    when: BTreeMap<&'static str, &'static [&'static str]>,
 }
 
 #[derive(Serialize)]
@@ -67,25 +71,22 @@ fn json(v: &impl Serialize) -> Result<String, Failure> {
 
 fn model(kind: SurfaceKind) -> Model {
     let about = kind.about();
-    let lacks = |l: Lack| about.lacks.iter().any(|(x, _)| *x == l);
+    let lacks = |p: Property| about.lacks.iter().any(|l| l.property == p);
     Model {
         name: kind.name(),
         summary: about.summary,
         sources: about.sources.split(',').map(str::trim).filter(|s| !s.is_empty()).collect(),
-        reciprocal: !lacks(Lack::Reciprocity),
-        energy_conserving: !lacks(Lack::Energy),
+        reciprocal: !lacks(Property::Reciprocity),
+        energy_conserving: !lacks(Property::Energy),
         anisotropic: about.anisotropic,
         transmissive: about.transmits,
-        lacks: about.lacks.iter().map(|(l, reason)| Missing { property: property(*l), reason }).collect(),
+        lacks: about.lacks.iter().map(missing).collect(),
         parameters: kind.params().iter().map(param).collect(),
     }
 }
 
-fn property(lack: Lack) -> &'static str {
-    match lack {
-        Lack::Energy => "energy conservation",
-        Lack::Reciprocity => "reciprocity",
-    }
+fn missing(lack: &Lack) -> Missing {
+    Missing { property: lack.property.name(), reason: lack.reason, when: lack.when.iter().copied().collect() }
 }
 
 fn param(p: &ParamInfo) -> Param {
@@ -140,7 +141,10 @@ fn sheet(m: &Model) -> String {
     let _ = writeln!(out, "sources     {}", m.sources.join(", "));
     let _ = writeln!(out, "properties  {}", properties(m));
     for l in &m.lacks {
-        let _ = writeln!(out, "lacks       {}: {}", l.property, l.reason);
+        let when: Vec<String> =
+            l.when.iter().map(|(name, of)| format!("{name} is {}", of.join(" or "))).collect();
+        let when = if when.is_empty() { String::new() } else { format!(" where {}", when.join(" and ")) };
+        let _ = writeln!(out, "lacks       {}{when}: {}", l.property, l.reason);
     }
     let _ = writeln!(out, "parameters{}", if m.parameters.is_empty() { "  none" } else { "" });
     for p in &m.parameters {

@@ -94,8 +94,14 @@ fn subjects(args: &VerifyArgs) -> Result<Vec<SurfaceKind>, Failure> {
 /// # Errors
 /// Where there is none.
 pub(crate) fn kind(name: &str) -> Result<SurfaceKind, Failure> {
-    SurfaceKind::from_name(name)
-        .ok_or_else(|| Failure::usage(format!("there is no model `{name}`; `sparrow models` lists them")))
+    SurfaceKind::from_name(name).ok_or_else(|| {
+        let near = sparrow_verify::nearest(name, SurfaceKind::ALL.iter().map(|k| k.name()));
+        let remedy = match near {
+            Some(near) => format!("did you mean `{near}`?"),
+            None => "`sparrow models` lists them".to_owned(),
+        };
+        Failure::usage(format!("there is no model `{name}`; {remedy}"))
+    })
 }
 
 fn table(report: &Report, args: &VerifyArgs, out: &mut String) {
@@ -118,11 +124,22 @@ fn table(report: &Report, args: &VerifyArgs, out: &mut String) {
         report.largest_weight,
         100.0 * report.least_efficiency
     );
-    for row in &report.rows {
-        // One model alone is shown in full, among many only what is not as it ought to be.
-        if !matches!(row.verdict, Verdict::Pass | Verdict::NotAsked) || !args.all {
+    for question in Question::ALL {
+        let rows = || report.rows.iter().filter(|r| r.question == question);
+        rows().filter(|r| r.verdict == Verdict::Fail).for_each(|row| detail(row, args, out));
+        // Of what is as it ought to be, or known, the worst column will do; among many models that is left out.
+        let rest = rows().filter(|r| r.verdict != Verdict::Fail);
+        let worst = rest.max_by(|a, b| a.severity.total_cmp(&b.severity));
+        if let Some(row) = worst.filter(|r| matches!(r.verdict, Verdict::Known(_)) || !args.all) {
             detail(row, args, out);
         }
+    }
+    for claim in report.claims.iter().filter(|c| c.cases > 0 && c.found == 0) {
+        let _ = writeln!(
+            out,
+            "  said to lack {} ({}), not found in {} cases",
+            claim.property, claim.reason, claim.cases
+        );
     }
     let _ = writeln!(out);
 }

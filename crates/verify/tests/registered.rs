@@ -1,0 +1,34 @@
+//! Every registered model, because it is registered: the trial of `sparrow verify --all`, with fewer samples and cases.
+
+use sparrow_models::SurfaceKind;
+use sparrow_verify::{ColumnName, Options, Pins, Question, Subject, Verdict, verify};
+
+#[test]
+fn every_registered_model_holds() {
+    let subjects: Vec<&dyn Subject> = SurfaceKind::ALL.iter().map(|k| k as &dyn Subject).collect();
+    let options = Options { samples: 100_000, cases: 4, points: 24, seed: 1, threads: 2 };
+    let reports = verify(&subjects, &Pins::default(), &options, &|_, _| ());
+    let mut wrong = Vec::new();
+    for report in &reports {
+        for row in &report.rows {
+            if row.verdict == Verdict::Fail {
+                wrong.push(format!(
+                    "{:?} in {:?}: {}; {}",
+                    row.question, row.column, row.measured, row.reproduce
+                ));
+            }
+            // A question that is not asked does not hold. Mirrors have no density to ask about.
+            let of_density = matches!(
+                row.question,
+                Question::Density | Question::Samples | Question::Pdf | Question::Weight | Question::Mean
+            );
+            let mirror = report.model == "thin_dielectric";
+            let asked = row.verdict != Verdict::NotAsked;
+            let both_ways = row.question == Question::Agreement && row.column == ColumnName::F64;
+            let reciprocal = row.question == Question::Reciprocity;
+            assert!(asked || both_ways || mirror && (of_density || reciprocal), "{} {row:?}", report.model);
+        }
+    }
+    assert_eq!(reports.len(), SurfaceKind::ALL.len());
+    assert!(wrong.is_empty(), "{wrong:#?}");
+}
