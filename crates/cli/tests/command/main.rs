@@ -6,7 +6,7 @@ mod errors;
 mod info;
 #[cfg(unix)]
 mod interrupts;
-mod plot;
 mod models;
+mod plot;
 mod render;
 mod scratch;
