@@ -5,6 +5,7 @@ mod reference;
 use reference::record;
 use serde_json::Value;
 use sparrow_math::{LocalDir, Real};
+use sparrow_models::microfacet::charlie;
 use sparrow_models::microfacet::special::gauss_quantile;
 use sparrow_models::microfacet::{Facets, Masking, Ndf, NdfKind, Sampling, albedo, visible_slope, walk};
 use sparrow_models::{Bsdf, ParamBlock, Surface, SurfaceKind, fresnel, ggx::Ggx};
@@ -400,6 +401,43 @@ fn white_furnace_of_each_energy_choice() {
                 .sum();
             let kulla_conty = single + diffuse;
             assert!((kulla_conty - 1.0).abs() < 3e-3, "kulla-conty {alpha} {mu}: {kulla_conty}");
+        }
+    }
+}
+
+#[test]
+fn charlie_sheen() {
+    for roughness in ["0.2", "0.5", "1.0"] {
+        let r: f64 = roughness.parse().expect("a number");
+        let of_d = record(&format!("charlie.D.r{roughness}"));
+        check(&of_d, "/D(30)", charlie::d(dir(30.0, 10.0), r));
+        check(&of_d, "/D(80)", charlie::d(dir(80.0, 10.0), r));
+        let of_lambda = record(&format!("charlie.Lambda.r{roughness}"));
+        for mu in [0.1, 0.4, 0.9] {
+            check(&of_lambda, &format!("/mu={mu}"), charlie::lambda(mu, r));
+        }
+    }
+    let white = |r| bind(SurfaceKind::Charlie, &[0], &[r], &[1.0]);
+    for k in 1..=5 {
+        let r = record(&format!("charlie.f.r0.4.P{k}"));
+        let (i, o) = pair(&r);
+        check(&r, "", white(0.4).f(o, i)[0]);
+    }
+    for roughness in ["0.1", "0.3", "1.0"] {
+        let r = record(&format!("charlie.albedo.r{roughness}"));
+        let m = white(roughness.parse().expect("a number"));
+        for th in [0, 45, 75, 89] {
+            let o = dir(f64::from(th), 0.0);
+            let n = 400;
+            let mut sum = 0.0;
+            for k in 0..n * n {
+                // Points crowd at the horizon, where the sheen is: cos = x^2.
+                let x = (f64::from(k % n) + 0.5) / f64::from(n);
+                let phi = core::f64::consts::PI * (f64::from(k / n) + 0.5) / f64::from(n);
+                let i = LocalDir::from_angles(Real::acos(x * x), phi);
+                sum += m.f_cos(o, i)[0] * 2.0 * x * core::f64::consts::TAU / f64::from(n * n);
+            }
+            check(&r, &format!("/{th}"), sum);
         }
     }
 }

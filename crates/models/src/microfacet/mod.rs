@@ -5,6 +5,7 @@
 
 pub mod albedo;
 mod beckmann;
+pub mod charlie;
 mod facets;
 mod ndf;
 mod reflectance;

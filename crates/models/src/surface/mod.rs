@@ -6,6 +6,7 @@ mod ashikhmin_shirley;
 mod banks;
 mod blinn_phong;
 mod bouguer;
+mod charlie;
 mod coated_conductor;
 mod coated_diffuse;
 mod conductor;
@@ -42,6 +43,7 @@ models! {
         Banks = banks::Banks, "banks";
         Bouguer = bouguer::Bouguer, "bouguer";
         Velvet = velvet::Velvet, "velvet";
+        Charlie = charlie::Charlie, "charlie";
         DiffuseTransmission = diffuse_transmission::DiffuseTransmission, "diffuse_transmission";
         CoatedDiffuse = coated_diffuse::CoatedDiffuse, "coated_diffuse";
         CoatedConductor = coated_conductor::CoatedConductor, "coated_conductor";
