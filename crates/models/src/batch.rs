@@ -32,6 +32,8 @@ pub struct ParamColumns<'a> {
     pub spectra: [[&'a [f32]; N_LAMBDA]; MAX_SPECTRA],
     /// Places of the `Choice` parameters, the same for all points.
     pub choices: [u8; MAX_CHOICES],
+    /// Wavelengths in nm; where empty, those of [`ParamBlock::default`].
+    pub lambda: [&'a [f32]; N_LAMBDA],
 }
 
 /// Where values and densities go.
@@ -118,6 +120,11 @@ fn bind<R: Real, M: Model<R>>(p: &ParamColumns<'_>, i: usize) -> M {
             value(columns[2], i),
             value(columns[3], i),
         ]);
+    }
+    for (slot, column) in block.lambda.0.iter_mut().zip(&p.lambda) {
+        if !column.is_empty() {
+            *slot = value(column, i);
+        }
     }
     M::new(&block)
 }

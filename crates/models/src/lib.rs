@@ -40,6 +40,7 @@ mod cosine_lobe;
 pub mod fresnel;
 pub mod ggx;
 pub mod microfacet;
+mod mirror_facets;
 mod opaque;
 mod params;
 mod registry;
@@ -47,6 +48,6 @@ mod surface;
 mod v_cavity;
 
 pub use bsdf::{Bsdf, BsdfSample, Uniforms};
-pub use params::{MAX_CHOICES, MAX_REALS, MAX_SPECTRA, ParamBlock, ParamInfo, ParamKind};
+pub use params::{DEFAULT_NM, MAX_CHOICES, MAX_REALS, MAX_SPECTRA, ParamBlock, ParamInfo, ParamKind};
 pub use registry::{About, Lack, Model};
 pub use surface::{Surface, SurfaceKind};

@@ -33,8 +33,9 @@ fn batches_equal_single_calls_bit_for_bit() {
     let u = [noise(5), noise(6), noise(7)];
     let alpha: Vec<f32> = noise(8).iter().map(|v| 0.01 + 0.8 * v).collect();
     let spectrum = [noise(9), noise(10), noise(11), noise(12)];
+    let nm = noise(13).iter().map(|v| 360.0 + 470.0 * v).collect::<Vec<f32>>();
     for &kind in SurfaceKind::ALL {
-        let mut p = ParamColumns::default();
+        let mut p = ParamColumns { lambda: [&nm, &[450.0], &nm, &[600.0]], ..ParamColumns::default() };
         let (mut r, mut s) = (0, 0);
         for info in kind.params() {
             if info.kind == ParamKind::Real {
@@ -68,6 +69,7 @@ fn batches_equal_single_calls_bit_for_bit() {
             for k in 0..block.spectra.len() {
                 block.spectra[k].0 = p.spectra[k].map(at);
             }
+            block.lambda.0 = p.lambda.map(at);
             let m = kind.bind(&block);
             let at = |d: &[Vec<f32>; 3]| LocalDir::new(vec3(d[0][i], d[1][i], d[2][i]));
             let (f, pdf) = m.f_cos_pdf(at(&wo), at(&wi));

@@ -51,6 +51,7 @@ fn random_params(kind: SurfaceKind, rng: &mut Random) -> ParamBlock<f64> {
             }
         }
     }
+    block.lambda = Spectrum([(); 4].map(|()| 360.0 + 470.0 * rng.next()));
     block
 }
 
@@ -321,5 +322,6 @@ fn to_f32(p: &ParamBlock<f64>) -> ParamBlock<f32> {
         reals: p.reals.map(|v| v as f32),
         spectra: p.spectra.map(|s| Spectrum(s.0.map(|v| v as f32))),
         choices: p.choices,
+        lambda: Spectrum(p.lambda.0.map(|v| v as f32)),
     }
 }
