@@ -36,7 +36,9 @@
 pub mod batch;
 mod bsdf;
 mod coat;
+mod complex;
 mod cosine_lobe;
+mod film;
 pub mod fresnel;
 pub mod ggx;
 pub mod microfacet;

@@ -21,6 +21,7 @@ mod oren_nayar;
 mod phong;
 mod poulin_fournier;
 mod thin_dielectric;
+mod thin_film;
 mod torrance_sparrow;
 mod torrance_sparrow_1967;
 mod velvet;
@@ -48,6 +49,7 @@ models! {
         CoatedDiffuse = coated_diffuse::CoatedDiffuse, "coated_diffuse";
         CoatedConductor = coated_conductor::CoatedConductor, "coated_conductor";
         Conductor = conductor::Conductor, "conductor";
+        ThinFilm = thin_film::ThinFilm, "thin_film";
         Dielectric = dielectric::Dielectric, "dielectric";
         MicrofacetReflection = microfacet_reflection::MicrofacetReflection, "microfacet_reflection";
         MicrofacetDielectric = microfacet_dielectric::MicrofacetDielectric, "microfacet_dielectric";
