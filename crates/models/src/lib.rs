@@ -38,6 +38,7 @@ mod bsdf;
 mod coat;
 mod complex;
 mod cosine_lobe;
+mod fibres;
 mod film;
 pub mod fresnel;
 pub mod ggx;

@@ -20,6 +20,7 @@ mod microfacet_reflection;
 mod oren_nayar;
 mod phong;
 mod poulin_fournier;
+mod sheen;
 mod thin_dielectric;
 mod thin_film;
 mod torrance_sparrow;
@@ -45,6 +46,7 @@ models! {
         Bouguer = bouguer::Bouguer, "bouguer";
         Velvet = velvet::Velvet, "velvet";
         Charlie = charlie::Charlie, "charlie";
+        Sheen = sheen::Sheen, "sheen";
         DiffuseTransmission = diffuse_transmission::DiffuseTransmission, "diffuse_transmission";
         CoatedDiffuse = coated_diffuse::CoatedDiffuse, "coated_diffuse";
         CoatedConductor = coated_conductor::CoatedConductor, "coated_conductor";
