@@ -5,9 +5,9 @@ mod reference;
 use reference::record;
 use serde_json::Value;
 use sparrow_math::{LocalDir, Real};
-use sparrow_models::microfacet::charlie;
 use sparrow_models::microfacet::special::gauss_quantile;
 use sparrow_models::microfacet::{Facets, Masking, Ndf, NdfKind, Sampling, albedo, visible_slope, walk};
+use sparrow_models::microfacet::{charlie, groove};
 use sparrow_models::{Bsdf, ParamBlock, Surface, SurfaceKind, fresnel, ggx::Ggx};
 use sparrow_spectra::Spectrum;
 
@@ -438,6 +438,32 @@ fn charlie_sheen() {
                 sum += m.f_cos(o, i)[0] * 2.0 * x * core::f64::consts::TAU / f64::from(n * n);
             }
             check(&r, &format!("/{th}"), sum);
+        }
+    }
+}
+
+#[test]
+fn bounces_in_v_grooves() {
+    for beta in [20, 45, 60, 75] {
+        for psi in [0, 30, 60] {
+            let r = record(&format!("vgroove.beta{beta}.psi{psi}"));
+            let (g, psi) = (f64::from(90 - beta).to_radians(), f64::from(psi).to_radians());
+            let mut told = 0.0;
+            for (key, want) in r["value"].as_object().expect("shares") {
+                let (k, exit) = key.split_once(':').expect("bounces and exit angle");
+                let (k, exit): (u32, f64) = (k.parse().expect("bounces"), exit.parse().expect("an angle"));
+                let mut got = 0.0;
+                for side in [1.0, -1.0] {
+                    // The record counts exit angles positive on the far side of the normal.
+                    let out = -side * groove::exit(side * psi, g, k).to_degrees();
+                    got += if (out - exit).abs() < 1e-6 { groove::share(side * psi, g, k) } else { 0.0 };
+                }
+                let want = want.as_f64().expect("a share");
+                // 2000 rays.
+                assert!((got - want).abs() < 2.0 / 2000.0, "{} {key}: {got}, want {want}", r["id"]);
+                told += got;
+            }
+            assert!((told - 1.0).abs() < 1e-9, "{}: {told}", r["id"]);
         }
     }
 }

@@ -5,7 +5,7 @@
 //! [0, 0, 1]]` in the frame whose x leads towards the viewer. The last row keeps the height: nothing of the lobe falls
 //! below the horizon, and the albedo towards the viewer is R exactly. A, B and R depend on the viewer's angle and the
 //! fibres' roughness; they are fitted by us to random walks (`layer.rs`), and lie in `table.txt`. The lobe misplaces 4 % of the light,
-//! 5 % where each node counts by its share, 16 % at worst (an eighth of the lobe's azimuth and height told apart).
+//! 5 % where each node counts by its share, 16 % at worst, told over 8 by 8 cells.
 
 use core::f64::consts::{FRAC_1_PI, PI};
 use std::sync::OnceLock;

@@ -7,6 +7,7 @@ pub mod albedo;
 mod beckmann;
 pub mod charlie;
 mod facets;
+pub mod groove;
 mod ndf;
 mod reflectance;
 mod smith;

@@ -25,6 +25,7 @@ mod thin_dielectric;
 mod thin_film;
 mod torrance_sparrow;
 mod torrance_sparrow_1967;
+mod v_groove;
 mod velvet;
 mod ward;
 
@@ -38,6 +39,7 @@ models! {
         BlinnPhong = blinn_phong::BlinnPhong, "blinn_phong";
         TorranceSparrow = torrance_sparrow::TorranceSparrow, "torrance_sparrow";
         TorranceSparrow1967 = torrance_sparrow_1967::TorranceSparrow1967, "torrance_sparrow_1967";
+        VGroove = v_groove::VGroove, "v_groove";
         CookTorrance = cook_torrance::CookTorrance, "cook_torrance";
         AshikhminShirley = ashikhmin_shirley::AshikhminShirley, "ashikhmin_shirley";
         Ward = ward::Ward, "ward";
