@@ -88,9 +88,9 @@ impl ParamInfo {
 }
 
 /// Most numbers a model may take.
-pub const MAX_REALS: usize = 8;
+pub const MAX_REALS: usize = 12;
 /// Most spectra a model may take.
-pub const MAX_SPECTRA: usize = 4;
+pub const MAX_SPECTRA: usize = 5;
 /// Most choices a model may take.
 pub const MAX_CHOICES: usize = 6;
 /// The wavelength in nm that stands for all where none are given.

@@ -20,6 +20,7 @@ mod microfacet_reflection;
 mod oren_nayar;
 mod phong;
 mod poulin_fournier;
+mod principled;
 mod sheen;
 mod thin_dielectric;
 mod thin_film;
@@ -57,6 +58,7 @@ models! {
         Dielectric = dielectric::Dielectric, "dielectric";
         MicrofacetReflection = microfacet_reflection::MicrofacetReflection, "microfacet_reflection";
         MicrofacetDielectric = microfacet_dielectric::MicrofacetDielectric, "microfacet_dielectric";
+        Principled = principled::Principled, "principled";
         ThinDielectric = thin_dielectric::ThinDielectric, "thin_dielectric";
     }
 }

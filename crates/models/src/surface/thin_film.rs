@@ -46,7 +46,7 @@ impl<R: Real> Model<R> for ThinFilm<R> {
 
     #[inline(always)]
     fn new(p: &ParamBlock<R>) -> Self {
-        let [film_eta, film_k, eta, k] = p.spectra;
+        let [film_eta, film_k, eta, k, ..] = p.spectra;
         let thickness = p.reals[2];
         ThinFilm {
             ggx: Ggx::new(p.reals[0], p.reals[1]),
@@ -122,7 +122,7 @@ mod tests {
     fn mirror(thickness: f64, lambda: [f64; 4]) -> [f64; 4] {
         let mut p = ParamBlock::defaults(SurfaceKind::ThinFilm.params());
         p.reals[2] = thickness;
-        p.spectra = [1.3, 0.0, 1.69, 0.0].map(Spectrum::splat);
+        p.spectra = [1.3, 0.0, 1.69, 0.0, 0.0].map(Spectrum::splat);
         p.lambda = Spectrum(lambda);
         let up = LocalDir::from_angles(0.0, 0.0);
         let s = ThinFilm::new(&p).sample(up, Uniforms { lobe: 0.5, dir: [0.5; 2] });
