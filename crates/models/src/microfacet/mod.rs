@@ -5,6 +5,7 @@
 
 pub mod albedo;
 mod beckmann;
+pub mod boundary_albedo;
 pub mod charlie;
 mod facets;
 pub mod groove;
