@@ -132,7 +132,7 @@ impl<R: Real> VGroove<R> {
             [sin_g, cos_g],
             k,
             #[inline(always)]
-            |cos| F = F * self.fresnel((s.l * cos).min(R::ONE)),
+            |cos| F *= self.fresnel((s.l * cos).min(R::ONE)),
         );
         // The wall's normal: its tilt beta is the complement of g.
         let m = LocalDir::new(vec3(cos_g * s.across[0], cos_g * s.across[1], sin_g.max(R::of(1e-6))));
@@ -156,7 +156,7 @@ impl<R: Real> Opaque for VGroove<R> {
                 for mirrored in [false, true] {
                     let (w, part) = self.bounced(&section, k, mirrored);
                     lossless = lossless + w;
-                    f = f + part;
+                    f += part;
                 }
             }
         }
