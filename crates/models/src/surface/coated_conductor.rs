@@ -112,10 +112,9 @@ impl<R: Real> CoatedConductor<R> {
     #[inline(always)]
     fn over(coat: Coat<R>, alpha_base: [R; 2], eta: Spectrum<R>, k: Spectrum<R>) -> Self {
         let bend = R::of(0.5) * (R::ONE - R::ONE / coat.eta).sqr();
-        let [x, y] = [0, 1].map(
-            #[inline(always)]
-            |j| (alpha_base[j].sqr() + bend * coat.alphas()[j].sqr()).sqrt(),
-        );
+        let [along, across] = coat.alphas();
+        let x = (alpha_base[0].sqr() + bend * along.sqr()).sqrt();
+        let y = (alpha_base[1].sqr() + bend * across.sqr()).sqrt();
         // Under a coat that is no mirror the base is none either.
         let least = R::select(coat.is_smooth(), R::ZERO, R::of(2.0 * ALPHA_SMOOTH));
         let ggx = Ggx::new(x.max(least), y.max(least));
