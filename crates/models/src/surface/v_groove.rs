@@ -12,7 +12,7 @@
 //! Limits: after six bounces light is given up: white GGX facets of width 0.5 lose 1 %, Beckmann's none. Light that bounced at least twice
 //! gathers at the mirror direction, where the value grows like `1 / |h|`; it is cut off at `|h| = 1e-4`.
 
-use sparrow_math::{LocalDir, Real, vec3};
+use sparrow_math::{LocalDir, Mask, Real, vec3};
 use sparrow_spectra::Spectrum;
 
 use crate::microfacet::{Ndf, NdfKind, groove};
@@ -126,19 +126,29 @@ impl<R: Real> VGroove<R> {
         let g = groove::opening(sign * s.psi, sign * s.exit, k);
         let (sin_g, cos_g) = g.sin_cos();
         let exists = g.gt(R::of(1e-3)) & sin_g.gt(R::ZERO) & cos_g.gt(R::ZERO);
-        let mut F = Spectrum::ONE;
+        let (mut cosines, mut met) = ([R::ZERO; MOST as usize], 0);
         let width = groove::width(
             [sign * s.sin_cos_psi[0], s.sin_cos_psi[1]],
             [sin_g, cos_g],
             k,
             #[inline(always)]
-            |cos| F *= self.fresnel((s.l * cos).min(R::ONE)),
+            |cos| {
+                cosines[met] = cos;
+                met += 1;
+            },
         );
         // The wall's normal: its tilt beta is the complement of g.
         let m = LocalDir::new(vec3(cos_g * s.across[0], cos_g * s.across[1], sin_g.max(R::of(1e-6))));
         let D = self.ndf.d(m);
         let lossless = (D * cos_g * width * s.l / (s.h * R::of(f64::from(2 * k)))).only_where(exists);
-        (lossless, F * lossless)
+        let mut F = Spectrum::splat(lossless);
+        // Most numbers of bounces are out of reach: their reflectances are the costly part.
+        if lossless.gt(R::ZERO).any() {
+            for cos in &cosines[..met] {
+                F *= self.fresnel((s.l * *cos).min(R::ONE));
+            }
+        }
+        (lossless, F)
     }
 }
 
