@@ -10,7 +10,9 @@ use core::ops::Range;
 use sparrow_math::{InLanes, LocalDir, Real, in_lanes, vec3};
 use sparrow_spectra::{N_LAMBDA, Spectrum};
 
-use crate::{Bsdf, MAX_CHOICES, MAX_REALS, MAX_SPECTRA, Model, ParamBlock, SurfaceKind, Uniforms};
+use crate::{
+    Bsdf, MAX_CHOICES, MAX_REALS, MAX_SPECTRA, Model, ParamBlock, ParamInfo, ParamKind, SurfaceKind, Uniforms,
+};
 
 /// Directions, one column per component; all of one length.
 #[derive(Clone, Copy, Debug)]
@@ -32,6 +34,8 @@ pub struct ParamColumns<'a> {
     pub spectra: [[&'a [f32]; N_LAMBDA]; MAX_SPECTRA],
     /// Places of the `Choice` parameters, the same for all points.
     pub choices: [u8; MAX_CHOICES],
+    /// Wavelengths in nm; where empty, those of [`ParamBlock::default`].
+    pub lambda: [&'a [f32]; N_LAMBDA],
 }
 
 /// Where values and densities go.
@@ -105,19 +109,40 @@ fn value<R: Real>(column: &[f32], i: usize) -> R {
     }
 }
 
+/// How many numbers and spectra a table holds.
+const fn counts(table: &[ParamInfo]) -> (usize, usize) {
+    let (mut i, mut reals, mut spectra) = (0, 0, 0);
+    while i < table.len() {
+        match table[i].kind {
+            ParamKind::Real => reals += 1,
+            ParamKind::Albedo | ParamKind::Unbounded => spectra += 1,
+            ParamKind::Choice(_) => {}
+        }
+        i += 1;
+    }
+    (reals, spectra)
+}
+
+/// Reads the columns that the model's table names; others cost nothing.
 #[inline(always)]
 fn bind<R: Real, M: Model<R>>(p: &ParamColumns<'_>, i: usize) -> M {
+    let (reals, spectra) = const { counts(M::PARAMS) };
     let mut block = ParamBlock { choices: p.choices, ..ParamBlock::default() };
-    for (slot, column) in block.reals.iter_mut().zip(&p.reals) {
+    for (slot, column) in block.reals.iter_mut().zip(&p.reals).take(reals) {
         *slot = value(column, i);
     }
-    for (slot, columns) in block.spectra.iter_mut().zip(&p.spectra) {
+    for (slot, columns) in block.spectra.iter_mut().zip(&p.spectra).take(spectra) {
         *slot = Spectrum([
             value(columns[0], i),
             value(columns[1], i),
             value(columns[2], i),
             value(columns[3], i),
         ]);
+    }
+    for (slot, column) in block.lambda.0.iter_mut().zip(&p.lambda) {
+        if !column.is_empty() {
+            *slot = value(column, i);
+        }
     }
     M::new(&block)
 }

@@ -37,6 +37,12 @@ impl<R: Real> Coat<R> {
         Coat { eta, alpha, ggx, thickness, t_avg }
     }
 
+    /// A coat of which only the surface is asked for: no light comes back from below.
+    #[inline(always)]
+    pub(crate) fn surface(alpha: [R; 2], eta: R) -> Self {
+        Coat { eta, alpha, ggx: Ggx::new(alpha[0], alpha[1]), thickness: R::ZERO, t_avg: R::ZERO }
+    }
+
     /// The surface of the coat is a mirror.
     #[inline(always)]
     pub(crate) fn is_smooth(&self) -> R::Mask {
@@ -137,6 +143,12 @@ impl<R: Real> Coat<R> {
     #[inline(always)]
     pub(crate) fn regularized(self) -> Self {
         Coat::new(self.alpha.map(wider), self.eta, self.thickness)
+    }
+
+    /// As [`regularized`](Self::regularized), of a [`surface`](Self::surface).
+    #[inline(always)]
+    pub(crate) fn regularized_surface(self) -> Self {
+        Coat::surface([wider(self.alpha[0]), wider(self.alpha[1])], self.eta)
     }
 }
 

@@ -36,10 +36,14 @@
 pub mod batch;
 mod bsdf;
 mod coat;
+mod complex;
 mod cosine_lobe;
+mod fibres;
+mod film;
 pub mod fresnel;
 pub mod ggx;
 pub mod microfacet;
+mod mirror_facets;
 mod opaque;
 mod params;
 mod registry;
@@ -47,6 +51,6 @@ mod surface;
 mod v_cavity;
 
 pub use bsdf::{Bsdf, BsdfSample, Uniforms};
-pub use params::{MAX_CHOICES, MAX_REALS, MAX_SPECTRA, ParamBlock, ParamInfo, ParamKind};
+pub use params::{DEFAULT_NM, MAX_CHOICES, MAX_REALS, MAX_SPECTRA, ParamBlock, ParamInfo, ParamKind};
 pub use registry::{About, Lack, Model, Property};
 pub use surface::{Surface, SurfaceKind};

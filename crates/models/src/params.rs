@@ -88,11 +88,13 @@ impl ParamInfo {
 }
 
 /// Most numbers a model may take.
-pub const MAX_REALS: usize = 8;
+pub const MAX_REALS: usize = 12;
 /// Most spectra a model may take.
-pub const MAX_SPECTRA: usize = 4;
+pub const MAX_SPECTRA: usize = 5;
 /// Most choices a model may take.
 pub const MAX_CHOICES: usize = 6;
+/// The wavelength in nm that stands for all where none are given.
+pub const DEFAULT_NM: f64 = 550.0;
 
 /// The values of a model's parameters at one point and one set of wavelengths: numbers, spectra and choices, each
 /// in the order in which the model's table lists them. Choices are the same in all lanes.
@@ -104,6 +106,9 @@ pub struct ParamBlock<R> {
     pub spectra: [Spectrum<R>; MAX_SPECTRA],
     /// Places of the `Choice` parameters among their names.
     pub choices: [u8; MAX_CHOICES],
+    /// Wavelengths of the path in nm, in the order of a spectrum's values; [`DEFAULT_NM`] where nobody says. No parameter:
+    /// whoever binds a model fills them in, and only models of interference or diffraction read them.
+    pub lambda: Spectrum<R>,
 }
 
 impl<R: Real> Default for ParamBlock<R> {
@@ -112,6 +117,7 @@ impl<R: Real> Default for ParamBlock<R> {
             reals: [R::ZERO; MAX_REALS],
             spectra: [Spectrum::ZERO; MAX_SPECTRA],
             choices: [0; MAX_CHOICES],
+            lambda: Spectrum::splat(R::of(DEFAULT_NM)),
         }
     }
 }

@@ -33,15 +33,20 @@ fn batches_equal_single_calls_bit_for_bit() {
     let u = [noise(5), noise(6), noise(7)];
     let alpha: Vec<f32> = noise(8).iter().map(|v| 0.01 + 0.8 * v).collect();
     let spectrum = [noise(9), noise(10), noise(11), noise(12)];
-    for &kind in SurfaceKind::ALL {
-        let mut p = ParamColumns::default();
-        let (mut r, mut s) = (0, 0);
+    let nm = noise(13).iter().map(|v| 360.0 + 470.0 * v).collect::<Vec<f32>>();
+    // Every choice at its first, second and third place.
+    for (&kind, place) in SurfaceKind::ALL.iter().flat_map(|k| [(k, 0), (k, 1), (k, 2)]) {
+        let mut p = ParamColumns { lambda: [&nm, &[450.0], &nm, &[600.0]], ..ParamColumns::default() };
+        let (mut r, mut s, mut c) = (0, 0, 0);
         for info in kind.params() {
             if info.kind == ParamKind::Real {
                 // A column where roughness varies, one number for all where it does not.
                 p.reals[r] = if info.name.starts_with("alpha") { &alpha } else { &[1.5] };
                 r += 1;
-            } else if !matches!(info.kind, ParamKind::Choice(_)) {
+            } else if let ParamKind::Choice(names) = info.kind {
+                p.choices[c] = (names.len() as u8 - 1).min(place);
+                c += 1;
+            } else {
                 p.spectra[s] = [&spectrum[0], &spectrum[1], &spectrum[2], &spectrum[3]];
                 s += 1;
             }
@@ -56,7 +61,7 @@ fn batches_equal_single_calls_bit_for_bit() {
         let mut out = SampleColumns { wi: [wx, wy, wz], weight: [a, b, c, d], density, eta, delta };
         batch::sample(kind, &p, &from, &[&u[0], &u[1], &u[2]], &mut out);
         for i in 0..N {
-            let mut block = ParamBlock::<f32>::default();
+            let mut block = ParamBlock::<f32> { choices: p.choices, ..ParamBlock::default() };
             let at = |c: &[f32]| match c {
                 [] => 0.0,
                 [one] => *one,
@@ -68,6 +73,7 @@ fn batches_equal_single_calls_bit_for_bit() {
             for k in 0..block.spectra.len() {
                 block.spectra[k].0 = p.spectra[k].map(at);
             }
+            block.lambda.0 = p.lambda.map(at);
             let m = kind.bind(&block);
             let at = |d: &[Vec<f32>; 3]| LocalDir::new(vec3(d[0][i], d[1][i], d[2][i]));
             let (f, pdf) = m.f_cos_pdf(at(&wo), at(&wi));

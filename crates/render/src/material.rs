@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use sparrow_models::{MAX_CHOICES, MAX_REALS, MAX_SPECTRA, ParamBlock, ParamKind, Surface, SurfaceKind};
 use sparrow_scene::{FloatTextureId, MaterialDesc, RealParam, SceneDesc, SpectrumParam, SpectrumTextureId};
-use sparrow_spectra::{DenseSpectrum, RgbRole, Wavelengths};
+use sparrow_spectra::{DenseSpectrum, RgbRole, Spectrum, Wavelengths};
 
 use crate::spectrum::SceneSpectrum;
 use crate::texture::{TextureContext, Textures};
@@ -72,7 +72,8 @@ impl Material {
     /// Evaluates the parameters at a point and binds them.
     #[inline]
     pub(crate) fn bind(&self, textures: &Textures, ctx: &TextureContext, w: &Wavelengths) -> Surface<f32> {
-        let mut block = ParamBlock { choices: self.choices, ..ParamBlock::default() };
+        let mut block =
+            ParamBlock { choices: self.choices, lambda: Spectrum(w.lambda), ..ParamBlock::default() };
         for (slot, source) in block.reals.iter_mut().zip(&self.reals) {
             *slot = match source {
                 RealSource::Constant(v) => *v,

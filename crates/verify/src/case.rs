@@ -37,6 +37,9 @@ pub(crate) enum Style {
     White,
 }
 
+/// Wavelengths of every case, in nm: four over the visible range, for models of interference.
+const WAVELENGTHS: [f64; 4] = [420.0, 510.0, 600.0, 690.0];
+
 impl Case {
     /// The `index`-th case: what is pinned stays; what is not is drawn, or at its default where anything is pinned.
     pub(crate) fn draw(
@@ -47,6 +50,7 @@ impl Case {
         rng: &mut Random,
     ) -> Case {
         let mut params = ParamBlock::<f64>::defaults(table);
+        params.lambda = Spectrum(WAVELENGTHS);
         let shares = table.iter().filter(|p| p.kind == ParamKind::Albedo).count().max(1);
         let white = (style == Style::White).then(|| rng.below(shares));
         let mut albedos = 0;

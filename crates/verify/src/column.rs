@@ -143,6 +143,9 @@ impl Batch {
                 columns.spectra[k][w] = std::slice::from_ref(&p.spectra[k].0[w]);
             }
         }
+        for w in 0..N_LAMBDA {
+            columns.lambda[w] = std::slice::from_ref(&p.lambda.0[w]);
+        }
         work(&columns)
     }
 }
@@ -214,5 +217,6 @@ pub fn narrow(p: &ParamBlock<f64>) -> ParamBlock<f32> {
         reals: p.reals.map(|v| v as f32),
         spectra: p.spectra.map(|s| Spectrum(s.0.map(|v| v as f32))),
         choices: p.choices,
+        lambda: Spectrum(p.lambda.0.map(|v| v as f32)),
     }
 }

@@ -128,11 +128,11 @@ impl AlbedoTable {
 }
 
 /// Most lanes a number type may have.
-const WIDEST: usize = 16;
+pub(crate) const WIDEST: usize = 16;
 
 /// The cell of a table with `n` nodes that holds `x`, one per lane, and how far into it `x` lies.
 #[inline(always)]
-fn place<R: Real>(x: R, n: usize) -> ([f32; WIDEST], R) {
+pub(crate) fn place<R: Real>(x: R, n: usize) -> ([f32; WIDEST], R) {
     const { assert!(R::WIDTH <= WIDEST, "the look-up has room for fewer lanes") };
     let cell = (x - R::of(0.5)).round().clamp(R::ZERO, R::of((n - 2) as f64));
     let mut cells = [0.0; WIDEST];

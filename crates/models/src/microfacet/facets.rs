@@ -116,10 +116,10 @@ impl<R: Real> Facets<R> {
         };
         R::of(0.25) / denominator.max(R::of(1e-30))
     }
-    /// Smith's `Lambda(w)`, finite at the horizon.
+    /// `Lambda` of a direction with the cosine `mu`.
     #[inline(always)]
-    fn lambda(&self, w: LocalDir<R>) -> R {
-        self.ndf.mu_lambda(w) / w.abs_cos_theta().max(R::of(1e-12))
+    fn lambda(&self, w: LocalDir<R>, mu: R) -> R {
+        self.ndf.mu_lambda(w) / mu.max(R::of(1e-12))
     }
     /// `G_2 / (4 |cos theta_o cos theta_i|)` for transmission, `o` above and `i` below: the correlated form is
     /// `B(1 + Lambda_o, 1 + Lambda_i)` [Heitz2016, eq. 23]; V-grooves count as independent.
@@ -129,7 +129,7 @@ impl<R: Real> Facets<R> {
         let quarter = R::of(0.25);
         match self.masking {
             Masking::Smith => {
-                quarter * smith::transmission_g2(self.lambda(o), self.lambda(i))
+                quarter * smith::transmission_g2(self.lambda(o, mu_o), self.lambda(i, mu_i))
                     / (mu_o * mu_i).max(R::of(1e-30))
             }
             Masking::Separable | Masking::VCavity => {

@@ -5,7 +5,10 @@
 
 pub mod albedo;
 mod beckmann;
+pub mod boundary_albedo;
+pub mod charlie;
 mod facets;
+pub mod groove;
 mod ndf;
 mod reflectance;
 mod smith;

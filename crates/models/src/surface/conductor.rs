@@ -5,10 +5,12 @@
 //!
 //! Sources: [Walter2007] for the family, [Heitz2014] for masking, [Heitz2018] and [DupuyBenyoub2023] for sampling.
 
-use sparrow_math::{LocalDir, Real, Vec3, vec3};
+use sparrow_math::{LocalDir, Real};
 use sparrow_spectra::Spectrum;
 
-use crate::{About, Bsdf, BsdfSample, Model, ParamBlock, ParamInfo, Uniforms, fresnel, ggx::Ggx};
+use crate::{
+    About, Bsdf, BsdfSample, Model, ParamBlock, ParamInfo, Uniforms, fresnel, ggx::Ggx, mirror_facets,
+};
 
 /// A rough or smooth conductor.
 #[derive(Clone, Copy, Debug)]
@@ -50,45 +52,31 @@ impl<R: Real> Conductor<R> {
 }
 
 impl<R: Real> Bsdf<R> for Conductor<R> {
-    #[allow(non_snake_case, reason = "names of the formula")]
     #[inline(always)]
     fn f(&self, wo: LocalDir<R>, wi: LocalDir<R>) -> Spectrum<R> {
-        let lit = wo.same_side(wi) & !self.ggx.is_smooth();
-        let m = wo.half(wi);
-        let D = self.ggx.d(m); // [Heitz2014, eq. 85]
-        let G = self.ggx.g2_over_4cos(wo, wi); // [Heitz2014, eq. 99]
-        let F = self.fresnel(wo.dot(m).abs().min(R::ONE));
-        (F * (D * G)).only_where(lit)
+        mirror_facets::f(
+            &self.ggx,
+            wo,
+            wi,
+            #[inline(always)]
+            |cos| self.fresnel(cos),
+        )
     }
 
     #[inline(always)]
     fn pdf(&self, wo: LocalDir<R>, wi: LocalDir<R>) -> R {
-        let lit = wo.same_side(wi) & !self.ggx.is_smooth();
-        let m = wo.half(wi);
-        (self.ggx.visible_over_cos(wo, m) * R::of(0.25)).only_where(lit)
+        mirror_facets::pdf(&self.ggx, wo, wi)
     }
 
-    #[allow(non_snake_case, reason = "names of the formula")]
     #[inline(always)]
     fn sample(&self, wo: LocalDir<R>, u: Uniforms<R>) -> BsdfSample<R> {
-        let delta = self.ggx.is_smooth();
-        // Sampled above; a metal looks the same from behind.
-        let up = LocalDir::new(Vec3 { z: wo.z().abs(), ..wo.v() });
-        let rough = self.ggx.sample_visible(up, u.dir);
-        let m = LocalDir::new(Vec3::select(delta, vec3(R::ZERO, R::ZERO, R::ONE), rough.v()));
-        let wi_up = up.reflect(m);
-        let valid = up.above() & wi_up.above();
-        let F = self.fresnel(up.dot(m).clamp(R::ZERO, R::ONE));
-        let G = R::select(delta, R::ONE, self.ggx.g2_over_g1(up, wi_up));
-        let density = R::select(delta, R::ONE, self.ggx.visible_over_cos(up, m) * R::of(0.25));
-        BsdfSample {
-            wi: LocalDir::new(Vec3 { z: wi_up.z().copysign(wo.z()), ..wi_up.v() }),
-            weight: (F * G).only_where(valid),
-            density: density.only_where(valid),
-            eta: R::ONE,
-            delta,
-            valid: valid & (delta | density.gt(R::ZERO)),
-        }
+        mirror_facets::sample(
+            &self.ggx,
+            wo,
+            u,
+            #[inline(always)]
+            |cos| self.fresnel(cos),
+        )
     }
 
     #[inline(always)]

@@ -15,8 +15,8 @@ use crate::{About, Bsdf, BsdfSample, Model, ParamBlock, ParamInfo, Uniforms, fre
 /// A rough or smooth boundary between two dielectrics.
 #[derive(Clone, Copy, Debug)]
 pub struct Dielectric<R> {
-    eta: R,
-    ggx: Ggx<R>,
+    pub(super) eta: R,
+    pub(super) ggx: Ggx<R>,
 }
 
 impl<R: Real> Model<R> for Dielectric<R> {

@@ -20,8 +20,8 @@ const K2: f64 = 2.0 / 3.0 - 28.0 / (15.0 * PI);
 /// Energy-preserving Oren-Nayar.
 #[derive(Clone, Copy, Debug)]
 pub struct Eon<R> {
-    reflectance: Spectrum<R>,
-    r: R,
+    pub(super) reflectance: Spectrum<R>,
+    pub(super) r: R,
 }
 
 impl<R: Real> Model<R> for Eon<R> {

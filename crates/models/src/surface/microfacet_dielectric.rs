@@ -3,30 +3,50 @@
 //! [Walter2007, eq. 16, 17, 20, 21]; exact Fresnel reflectance. The value is for radiance: transmission carries
 //! `1 / eta^2`, with eta from the side of `wo` to the other. Masking `smith` is correlated by height: `1 / (1 +
 //! Lambda_o + Lambda_i)` for reflection and `B(1 + Lambda_o, 1 + Lambda_i)` for transmission [Heitz2016, eq. 23], in
-//! which the model differs from [`dielectric`](super::dielectric). Single scattering. Where both sides have the same
-//! index, light goes straight on.
+//! which the model differs from [`dielectric`](super::dielectric). Where both sides have the same index, light goes
+//! straight on.
+//! Light that meets a second facet is lost (`single`), or given back: by a factor `1 / E(o)` on both lobes [Turquin2019], which
+//! is not reciprocal, or by diffuse lobes on either side, which is [KullaConty2017]. Both are known for `ndf "ggx"` with
+//! `masking "smith"` and indices from 1/3 to 3; elsewhere `energy` has no effect, or that of the nearest index.
 
-use sparrow_math::{LocalDir, Real, Vec3, vec3};
+use core::f64::consts::FRAC_1_PI;
+
+use sparrow_math::{LocalDir, Mask, Real, Vec3, vec3, warp};
 use sparrow_spectra::Spectrum;
 
+use crate::microfacet::boundary_albedo::{self, BoundaryTable};
 use crate::microfacet::{Facets, Masking, Ndf, NdfKind, Sampling};
 use crate::{About, Bsdf, BsdfSample, Lack, Model, ParamBlock, ParamInfo, Uniforms, fresnel};
+
+/// What is done about light that meets several facets.
+#[derive(Clone, Copy, Debug)]
+enum Energy {
+    Single,
+    Turquin(&'static BoundaryTable),
+    KullaConty(&'static BoundaryTable),
+}
 
 /// Reflecting and refracting facets.
 #[derive(Clone, Copy, Debug)]
 pub struct MicrofacetDielectric<R> {
     eta: R,
     facets: Facets<R>,
+    energy: Energy,
 }
 
 impl<R: Real> Model<R> for MicrofacetDielectric<R> {
     const ABOUT: About = About::new(
-        "facets that reflect and refract: distribution, masking and sampling by choice",
-        "Walter2007, Heitz2014, Heitz2016",
+        "facets that reflect and refract: distribution, masking, sampling and energy by choice",
+        "Walter2007, Heitz2014, Heitz2016, KullaConty2017, Turquin2019",
     )
     .anisotropic()
     .transmits()
-    .lacks(&[Lack::energy("facets hide nothing of each other").when(&[("masking", &["none"])])]);
+    .lacks(&[
+        Lack::energy("facets hide nothing of each other").when(&[("masking", &["none"])]),
+        Lack::energy("compensation takes the albedo of the mean of two widths, from a table")
+            .when(&[("energy", &["turquin", "kulla_conty"])]),
+        Lack::reciprocity("scales by the albedo towards the viewer alone").when(&[("energy", &["turquin"])]),
+    ]);
     const PARAMS: &'static [ParamInfo] = &[
         ParamInfo::real("eta")
             .default(1.5)
@@ -47,6 +67,8 @@ impl<R: Real> Model<R> for MicrofacetDielectric<R> {
         ParamInfo::choice("masking", &["smith", "separable", "none"]).doc("How facets hide each other."),
         ParamInfo::choice("sampling", &["visible", "disk", "full"])
             .doc("How normals are drawn; the disk is for ggx, beckmann then draws what is visible."),
+        ParamInfo::choice("energy", &["single", "turquin", "kulla_conty"])
+            .doc("Light that meets several facets: lost, or given back (ggx with smith masking)."),
     ];
 
     #[inline(always)]
@@ -57,8 +79,14 @@ impl<R: Real> Model<R> for MicrofacetDielectric<R> {
             1 => Masking::Separable,
             _ => Masking::None,
         };
+        let compensable = kind == NdfKind::Ggx && masking == Masking::Smith;
         MicrofacetDielectric {
             eta: p.reals[0],
+            energy: match p.choices[3] {
+                1 if compensable => Energy::Turquin(boundary_albedo::table()),
+                2 if compensable => Energy::KullaConty(boundary_albedo::table()),
+                _ => Energy::Single,
+            },
             facets: Facets::new(
                 Ndf::new(kind, p.reals[1], p.reals[2], R::ZERO),
                 masking,
@@ -91,12 +119,69 @@ impl<R: Real> MicrofacetDielectric<R> {
         let h = (o.v() + i.v() * R::select(i.above(), R::ONE, eta)).normalized();
         LocalDir::new(h.facing(vec3(R::ZERO, R::ZERO, R::ONE)))
     }
-    /// `f` and the density of `i`, for `o` above and the facet normal `m` between them.
+    /// `1 - E`: the share of light from the cosine `mu` that single scattering loses; `eta` as met from its side.
+    #[inline(always)]
+    fn lost(&self, table: &BoundaryTable, mu: R, eta: R) -> R {
+        let kept = table.albedo(mu.min(R::ONE), self.facets.ndf().mean_width(), eta);
+        (R::ONE - kept).clamp(R::ZERO, R::of(0.99))
+    }
+    /// The diffuse lobes over `1 - E(o)`, and the share of them that goes through. [KullaConty2017]
     ///
-    /// Not inlined: with all its choices in every number type it would take minutes to build.
-    #[allow(non_snake_case, reason = "names of the formula")]
+    /// `x (1 - E(i)) / (pi (1 - E_avg))` on the viewer's side, `(1 - x) (1 - E'(i)) / (pi (1 - E'_avg) eta^2)` on the other,
+    /// primes for light from there. `1 - x = T_avg min(1 - E_avg, 1 - E'_avg) / (1 - E_avg)`, T_avg the mean transmittance of a
+    /// smooth boundary, makes both reciprocal, since `T_avg = eta^2 T'_avg`.
+    #[inline(always)]
+    fn diffuse(&self, table: &BoundaryTable, i: LocalDir<R>, eta: R) -> (R, R) {
+        let dense = eta.max(R::ONE / eta);
+        let enters = R::ONE
+            - fresnel::average(
+                #[inline(always)]
+                |c| fresnel::dielectric(c, dense).0,
+            );
+        let t_avg = R::select(eta.ge(R::ONE), enters, enters / dense.sqr());
+        let width = self.facets.ndf().mean_width();
+        let here = (R::ONE - table.mean(width, eta)).max(R::of(1e-6));
+        let there = (R::ONE - table.mean(width, R::ONE / eta)).max(R::of(1e-6));
+        let through = t_avg * (here.min(there) / here);
+        let reflects = i.above();
+        let lost_i = self.lost(table, i.abs_cos_theta(), R::select(reflects, eta, R::ONE / eta));
+        let share = R::select(reflects, (R::ONE - through) / here, through / (there * eta.sqr()));
+        (share * lost_i * R::of(FRAC_1_PI), through)
+    }
+    /// [`single`](Self::single) with what is done about the light it loses.
     #[inline(always)]
     fn value_and_density(&self, o: LocalDir<R>, i: LocalDir<R>, m: LocalDir<R>, eta: R) -> (R, R) {
+        let (f, pdf) = self.single(o, i, m, eta);
+        match self.energy {
+            Energy::Single => (f, pdf),
+            Energy::Turquin(table) => (f / (R::ONE - self.lost(table, o.cos_theta(), eta)), pdf),
+            Energy::KullaConty(table) => {
+                let lost = self.lost(table, o.cos_theta(), eta);
+                let (diffuse, through) = self.diffuse(table, i, eta);
+                let side = R::select(i.above(), R::ONE - through, through);
+                let p = side * warp::cosine_hemisphere_pdf(i.abs_cos_theta());
+                let lit = o.above() & i.abs_cos_theta().gt(R::ZERO);
+                (f + (lost * diffuse).only_where(lit), (R::ONE - lost) * pdf + (lost * p).only_where(lit))
+            }
+        }
+    }
+    /// The direction of the diffuse lobes that a sample takes instead of `i`, and where it does.
+    #[inline(always)]
+    fn instead(&self, o: LocalDir<R>, u: Uniforms<R>, eta: R) -> (LocalDir<R>, R::Mask, R) {
+        let Energy::KullaConty(table) = self.energy else {
+            return (o, R::Mask::of(false), u.lobe);
+        };
+        let lost = self.lost(table, o.cos_theta(), eta);
+        let through = self.diffuse(table, o, eta).1;
+        let up = warp::cosine_hemisphere(u.dir);
+        let z = R::select(u.lobe.lt(lost * through), -up.z, up.z);
+        let left = ((u.lobe - lost) / (R::ONE - lost)).clamp(R::ZERO, R::ONE);
+        (LocalDir::new(Vec3 { z, ..up }), u.lobe.lt(lost), left)
+    }
+    /// `f` and the density of `i`, for `o` above and the facet normal `m` between them; one facet only.
+    #[allow(non_snake_case, reason = "names of the formula")]
+    #[inline(always)]
+    fn single(&self, o: LocalDir<R>, i: LocalDir<R>, m: LocalDir<R>, eta: R) -> (R, R) {
         let reflects = i.above();
         let (o_dot_m, i_dot_m) = (o.dot(m), i.dot(m));
         let lit =
@@ -150,10 +235,15 @@ impl<R: Real> Bsdf<R> for MicrofacetDielectric<R> {
         ));
         let cos_o = o.dot(m).clamp(R::ZERO, R::ONE);
         let (reflectance, cos_t) = fresnel::dielectric(cos_o, eta);
-        let reflects = u.lobe.lt(reflectance) & !delta;
+        let (diffuse_i, diffuse, lobe) = self.instead(o, u, eta);
+        let diffuse = diffuse & !delta;
+        let reflects = lobe.lt(reflectance) & !delta;
         let refracted = m.v() * (cos_o / eta - cos_t) - o.v() * (R::ONE / eta);
         let bent = Vec3::select(delta, -o.v(), refracted.normalized());
-        let i = LocalDir::new(Vec3::select(reflects, o.reflect(m).v(), bent));
+        let i = Vec3::select(reflects, o.reflect(m).v(), bent);
+        let i = LocalDir::new(Vec3::select(diffuse, diffuse_i.v(), i));
+        let reflects = (reflects & !diffuse) | (diffuse & i.above());
+        let m = LocalDir::new(Vec3::select(diffuse, Self::normal(o, i, eta).v(), m.v()));
 
         let (f, pdf) = self.value_and_density(o, i, m, eta);
         let density = R::select(delta, R::ONE, pdf);

@@ -97,7 +97,7 @@ impl<R: Real> Model<R> for MicrofacetReflection<R> {
         let shape = if kind == NdfKind::Blinn { p.reals[2] } else { p.reals[3] };
         let masking = Masking::from_choice(p.choices[1]);
         let compensable = kind == NdfKind::Ggx && masking == Masking::Smith;
-        let [eta, k, f0, f82] = p.spectra;
+        let [eta, k, f0, f82, ..] = p.spectra;
         MicrofacetReflection {
             facets: Facets::new(
                 Ndf::new(kind, p.reals[0], p.reals[1], shape),

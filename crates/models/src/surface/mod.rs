@@ -6,6 +6,7 @@ mod ashikhmin_shirley;
 mod banks;
 mod blinn_phong;
 mod bouguer;
+mod charlie;
 mod coated_conductor;
 mod coated_diffuse;
 mod conductor;
@@ -19,9 +20,13 @@ mod microfacet_reflection;
 mod oren_nayar;
 mod phong;
 mod poulin_fournier;
+mod principled;
+mod sheen;
 mod thin_dielectric;
+mod thin_film;
 mod torrance_sparrow;
 mod torrance_sparrow_1967;
+mod v_groove;
 mod velvet;
 mod ward;
 
@@ -35,6 +40,7 @@ models! {
         BlinnPhong = blinn_phong::BlinnPhong, "blinn_phong";
         TorranceSparrow = torrance_sparrow::TorranceSparrow, "torrance_sparrow";
         TorranceSparrow1967 = torrance_sparrow_1967::TorranceSparrow1967, "torrance_sparrow_1967";
+        VGroove = v_groove::VGroove, "v_groove";
         CookTorrance = cook_torrance::CookTorrance, "cook_torrance";
         AshikhminShirley = ashikhmin_shirley::AshikhminShirley, "ashikhmin_shirley";
         Ward = ward::Ward, "ward";
@@ -42,13 +48,17 @@ models! {
         Banks = banks::Banks, "banks";
         Bouguer = bouguer::Bouguer, "bouguer";
         Velvet = velvet::Velvet, "velvet";
+        Charlie = charlie::Charlie, "charlie";
+        Sheen = sheen::Sheen, "sheen";
         DiffuseTransmission = diffuse_transmission::DiffuseTransmission, "diffuse_transmission";
         CoatedDiffuse = coated_diffuse::CoatedDiffuse, "coated_diffuse";
         CoatedConductor = coated_conductor::CoatedConductor, "coated_conductor";
         Conductor = conductor::Conductor, "conductor";
+        ThinFilm = thin_film::ThinFilm, "thin_film";
         Dielectric = dielectric::Dielectric, "dielectric";
         MicrofacetReflection = microfacet_reflection::MicrofacetReflection, "microfacet_reflection";
         MicrofacetDielectric = microfacet_dielectric::MicrofacetDielectric, "microfacet_dielectric";
+        Principled = principled::Principled, "principled";
         ThinDielectric = thin_dielectric::ThinDielectric, "thin_dielectric";
     }
 }

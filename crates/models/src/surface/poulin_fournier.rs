@@ -166,16 +166,31 @@ mod tests {
 
     #[test]
     fn what_is_seen_is_what_a_scan_finds() {
-        // From the reference values: normal angles seen, in degrees, found by testing rays against the neighbours.
-        for (d, view, from, to) in [
-            (2.0, 0.0, -90.0, 90.0),
-            (2.0, 30.0, -60.0, 77.058),
-            (2.0, 80.0, -10.0, 39.255),
-            (0.5, 30.0, -14.478, 14.478),
-            (1.2, 30.0, -36.87, 36.87),
-            (1.2, 60.0, -30.0, 36.42),
-            (1.2, 80.0, -10.0, 27.662),
-        ] {
+        // Normal angles seen, in degrees, found by testing rays against the neighbours.
+        let records: serde_json::Value =
+            serde_json::from_str(include_str!("../../tests/reference/values_surfaces.json"))
+                .expect("records");
+        let records = records.as_array().expect("records");
+        let all = |prefix: &'static str| {
+            records.iter().filter(move |r| r["id"].as_str().is_some_and(|id| id.starts_with(prefix)))
+        };
+        let mut count = 0;
+        for r in all("poulin.phimax.") {
+            let model = PoulinFournier {
+                diffuse: Spectrum::ONE,
+                specular: Spectrum::ONE,
+                d: r["inputs"]["d"].as_f64().expect("d"),
+                v: 0.01,
+            };
+            let [_, to] = model.seen(&Section::new(LocalDir::from_angles(0.0, FRAC_PI_2)));
+            assert!((to.to_degrees() - r["value"].as_f64().expect("an angle")).abs() < 1e-6, "{r}: {to}");
+            count += 1;
+        }
+        for r in all("poulin.visible.") {
+            let number = |path| r.pointer(path).and_then(serde_json::Value::as_f64).expect("a number");
+            let (d, view) = (number("/inputs/d"), number("/inputs/view_deg"));
+            let (from, to) = (number("/value/phi_min"), number("/value/phi_max"));
+            count += 1;
             let model = PoulinFournier { diffuse: Spectrum::ONE, specular: Spectrum::ONE, d, v: 0.01 };
             for sign in [1.0f64, -1.0] {
                 let w = LocalDir::from_angles(f64::to_radians(view), sign * FRAC_PI_2);
@@ -189,5 +204,6 @@ mod tests {
                 assert!((width - d * s.cos_phi).abs() < 1e-12, "{d} {view}: {width}");
             }
         }
+        assert_eq!(count, 10);
     }
 }

@@ -1,44 +1,18 @@
-//! Values of the reference sheet for Fresnel terms, distributions, masking, visible normals and albedos.
+//! Terms of microfacet models: Fresnel's, distributions, masking, visible normals.
 
-mod reference;
-
-use reference::record;
-use serde_json::Value;
 use sparrow_math::{LocalDir, Real};
 use sparrow_models::microfacet::special::gauss_quantile;
-use sparrow_models::microfacet::{Facets, Masking, Ndf, NdfKind, Sampling, albedo, visible_slope, walk};
-use sparrow_models::{Bsdf, ParamBlock, Surface, SurfaceKind, fresnel, ggx::Ggx};
-use sparrow_spectra::Spectrum;
+use sparrow_models::microfacet::{Facets, Masking, Ndf, NdfKind, Sampling, visible_slope};
+use sparrow_models::{fresnel, ggx::Ggx};
 
-/// A number inside a record, by its path.
-fn at(v: &Value, path: &str) -> f64 {
-    v.pointer(path).and_then(Value::as_f64).expect("the record has a number there")
-}
-
-#[track_caller]
-fn check(r: &Value, path: &str, got: f64) {
-    let want = at(r, &format!("/value{path}"));
-    let tol = at(r, "/tol");
-    let bound = tol * want.abs().max(1e-9) + 1e-12;
-    assert!((got - want).abs() <= bound, "{} {path}: {got}, want {want}", r["id"]);
-}
-
-fn dir(theta_deg: f64, phi_deg: f64) -> LocalDir<f64> {
-    LocalDir::from_angles(theta_deg.to_radians(), phi_deg.to_radians())
-}
-
-/// The directions (i, o) of a record's pair.
-fn pair(r: &Value) -> (LocalDir<f64>, LocalDir<f64>) {
-    let a = |k: usize| at(r, &format!("/inputs/pair/{k}"));
-    (dir(a(0), a(1)), dir(a(2), a(3)))
-}
+use crate::read::{at, check, dir, pair};
+use crate::reference::record;
 
 fn cos_deg(deg: f64) -> f64 {
     Real::cos(deg.to_radians())
 }
 
-#[test]
-fn fresnel_terms() {
+pub(crate) fn fresnel_terms() {
     for (id, eta) in [("1.5000", 1.5), ("0.6667", 2.0 / 3.0), ("1.7000", 1.7), ("1.3300", 1.33)] {
         for th in [0, 30, 60, 80] {
             let r = record(&format!("fresnel.dielectric.eta{id}.th{th}"));
@@ -75,8 +49,7 @@ fn least(f: impl Fn(f64) -> f64) -> (f64, f64) {
         .fold((0.0, f64::INFINITY), |best, x| if x.1 < best.1 { x } else { best })
 }
 
-#[test]
-fn fresnel_approximations_and_averages() {
+pub(crate) fn fresnel_approximations_and_averages() {
     for f0 in [0.04, 0.9] {
         for th in [0, 60, 85] {
             let r = record(&format!("fresnel.schlick.f0_{f0}.th{th}"));
@@ -122,8 +95,7 @@ fn fresnel_approximations_and_averages() {
     }
 }
 
-#[test]
-fn distributions() {
+pub(crate) fn distributions() {
     let ndf = |kind, a: f64, shape| Ndf::new(kind, a, a, shape);
     let blinn = |s| ndf(NdfKind::Blinn, 1.0, s);
     for (id, d) in [
@@ -163,8 +135,7 @@ fn distributions() {
     }
 }
 
-#[test]
-fn masking() {
+pub(crate) fn masking() {
     for th in [30, 60, 80, 89] {
         let r = record(&format!("smith.lambda.a0.5.th{th}"));
         let w = dir(f64::from(th), 70.0);
@@ -189,8 +160,7 @@ fn masking() {
     }
 }
 
-#[test]
-fn visible_normals() {
+pub(crate) fn visible_normals() {
     for th in [20, 60, 85] {
         for u in [0.2, 0.7] {
             let r = record(&format!("beckmann.vndf.slope.th{th}.u{u}"));
@@ -218,64 +188,7 @@ fn visible_normals() {
     }
 }
 
-/// A model at given choices and numbers; spectra of one value each.
-fn bind(kind: SurfaceKind, choices: &[u8], reals: &[f64], spectra: &[f64]) -> Surface<f64> {
-    let mut p = ParamBlock::defaults(kind.params());
-    p.choices[..choices.len()].copy_from_slice(choices);
-    p.reals[..reals.len()].copy_from_slice(reals);
-    for (slot, v) in p.spectra.iter_mut().zip(spectra) {
-        *slot = Spectrum::splat(*v);
-    }
-    kind.bind(&p)
-}
-
-/// Reflecting facets with constant reflectance 1.
-fn white(ndf: u8, masking: u8, sampling: u8, energy: u8, ax: f64, ay: f64) -> Surface<f64> {
-    bind(
-        SurfaceKind::MicrofacetReflection,
-        &[ndf, masking, 4, sampling, energy],
-        &[ax, ay, 40.0, 2.0],
-        &[1.0, 0.0, 1.0, 1.0],
-    )
-}
-
-#[test]
-fn reflecting_facets() {
-    for (id, ax, ay) in [("0.3_0.3", 0.3, 0.3), ("0.15_0.5", 0.15, 0.5)] {
-        for k in 1..=5 {
-            let r = record(&format!("microfacet.F1.a{id}.P{k}"));
-            let (i, o) = pair(&r);
-            let f = |ndf, masking| white(ndf, masking, 0, 0, ax, ay).f(o, i)[0];
-            check(&r, "/ggx_corr", f(0, 0));
-            check(&r, "/ggx_uncorr", f(0, 1));
-            check(&r, "/beckmann_corr", f(1, 0));
-            check(&r, "/beckmann_vcavity", f(1, 2));
-            check(&r, "/pdf_vndf_from_o", white(0, 0, 0, 0, ax, ay).pdf(o, i));
-            check(&r, "/pdf_vndf_from_o", white(0, 0, 1, 0, ax, ay).pdf(o, i));
-            check(&r, "/pdf_bounded_vndf_from_o", white(0, 0, 3, 0, ax, ay).pdf(o, i));
-            if ax > 0.2 {
-                let r = record(&format!("cooktorrance.m0.3.P{k}"));
-                check(&r, "/with_4_and_normalised_D", f(1, 2));
-            }
-        }
-    }
-}
-
-#[test]
-fn refracting_facets() {
-    for (a, b, c) in [(30, 160, 180), (60, 150, 175), (10, 175, 170), (45, 130, 150)] {
-        let r = record(&format!("walter.ft.{a}.{b}.{c}"));
-        let (i, o) = (dir(f64::from(a), 0.0), dir(f64::from(b), f64::from(c)));
-        let m = bind(SurfaceKind::MicrofacetDielectric, &[0, 1, 0], &[1.5, 0.3, 0.3], &[]);
-        check(&r, "/f_t", m.f(o, i)[0]);
-        let h = (i.v() + o.v() * 1.5).normalized();
-        let transmitted = 1.0 - fresnel::dielectric(i.v().dot(h).abs(), 1.5).0;
-        check(&r, "/pdf_vndf*jacobian (no Fresnel factor)", m.pdf(i, o) / transmitted);
-    }
-}
-
-#[test]
-fn projections_of_visible_facets() {
+pub(crate) fn projections_of_visible_facets() {
     for th in [20, 60, 85] {
         let r = record(&format!("G1.projection.th{th}"));
         let w = dir(f64::from(th), 0.0);
@@ -299,107 +212,47 @@ fn projections_of_visible_facets() {
     }
 }
 
-#[test]
-fn albedos_and_compensation() {
-    for a in ["0.1", "0.3", "0.5", "0.8", "1.0"] {
-        let r = record(&format!("ggx.albedo.a{a}"));
-        let alpha: f64 = a.parse().expect("a number");
-        for (i, mu) in [0.1, 0.3, 0.5, 0.8, 1.0].into_iter().enumerate() {
-            let want = at(&r, &format!("/value/E/{i}"));
-            let (e, table) = (albedo::single(mu, alpha, [48, 96]), albedo::ggx().albedo(mu, alpha));
-            assert!((e - want).abs() < 5e-4, "{a} {mu}: {e}, want {want}");
-            assert!((table - want).abs() < 1e-3, "table {a} {mu}: {table}, want {want}");
-        }
-        let (mean, want) = (albedo::ggx().mean(alpha), at(&r, "/value/Eavg"));
-        assert!((mean - want).abs() < 1e-3, "{a}: {mean}, want {want}");
-    }
+pub(crate) fn walter_s_rational_masking() {
+    let r = record("smith.walter_rational_fit_maxrelerr");
+    // [Walter2007, eq. 27], for c = 1 / (a tan theta) below 1.6.
+    let worst = (1..=16_000)
+        .map(|k| {
+            let c = f64::from(k) * 1e-4;
+            let fit = (3.535 * c + 2.181 * c * c) / (1.0 + 2.276 * c + 2.577 * c * c);
+            let exact = Ndf::new(NdfKind::Beckmann, 1.0, 1.0, 0.0)
+                .g1(LocalDir::from_angles(Real::atan2(1.0, c), 0.0));
+            (fit / exact - 1.0).abs()
+        })
+        .skip(99)
+        .fold(0.0, f64::max);
+    check(&r, "", worst);
 }
 
-/// A small generator with a fixed seed. [Steele2014]
-fn generator(mut state: u64) -> impl FnMut() -> f64 {
-    move || {
-        state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = state;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
+pub(crate) fn bouguer_s_best_distribution() {
+    // The best D of each degree of alpha is what mu_i mu_o is worth there on average: error over pairs of directions.
+    let r = record("bouguer.best_fit");
+    let mut bins = [[0.0f64; 3]; 90];
+    let n = 1200u32;
+    for k in 0..n * n {
+        // Additive sequences in three dimensions: two heights and an azimuth.
+        let x = f64::from(k);
+        let z = [(x * 0.819_172_513_396_164_4 + 0.5).fract(), (x * 0.671_043_606_703_789_1 + 0.5).fract()];
+        let phi = core::f64::consts::TAU * (x * 0.549_700_477_901_970_4 + 0.5).fract();
+        let (o, i) =
+            (LocalDir::from_angles(Real::acos(z[0]), 0.0), LocalDir::from_angles(Real::acos(z[1]), phi));
+        let alpha = Real::acos(o.half(i).z()).to_degrees();
+        let product = z[0] * z[1];
+        let bin = &mut bins[(alpha as usize).min(89)];
+        *bin = [bin[0] + 1.0, bin[1] + product, bin[2] + product * product];
     }
-}
-
-#[test]
-fn walks_match_their_records_and_lose_nothing() {
-    for (id, mu, alpha, f0) in [
-        ("mu0.3.a1.0.f0_None", 0.3, 1.0, None),
-        ("mu0.3.a1.0.f0_0.8", 0.3, 1.0, Some(0.8)),
-        ("mu0.8.a0.5.f0_0.8", 0.8, 0.5, Some(0.8)),
-        ("mu0.1.a0.5.f0_0.5", 0.1, 0.5, Some(0.5)),
-    ] {
-        let r = record(&format!("ms_walk.{id}"));
-        let wo = LocalDir::from_angles(Real::acos(mu), 0.0);
-        let mut u = generator(1);
-        let n = 150_000;
-        let (mut all, mut first) = (0.0, 0.0);
-        for _ in 0..n {
-            let end =
-                walk(&Ggx::new(alpha, alpha), wo, |c| f0.map_or(1.0, |f0| fresnel::schlick(c, f0)), &mut u);
-            all += end.weight / f64::from(n);
-            first += if end.bounces == 1 { end.weight / f64::from(n) } else { 0.0 };
-        }
-        // Four standard errors of a share of 150 000.
-        let noise = 4.0 * 0.5 / f64::from(n).sqrt();
-        let want = at(&r, "/value/albedo_all_orders");
-        assert!((all - want).abs() < 2.5e-3, "{id}: {all}, want {want}");
-        let want = at(&r, "/value/first_order_quadrature");
-        assert!((first - want).abs() < noise, "{id}: {first}, want {want}");
+    let (mut rest, mut all) = (0.0, 0.0);
+    for [count, sum, squares] in bins {
+        rest += squares - sum * sum / f64::max(count, 1.0);
+        all += squares;
     }
-    // The white furnace at all angles.
-    let mut u = generator(2);
-    for alpha in [0.05, 0.2, 0.5, 1.0] {
-        for mu in [1e-3, 0.02, 0.1, 0.3, 0.6, 1.0] {
-            let wo = LocalDir::from_angles(Real::acos(mu), 0.4);
-            let n = 4000;
-            let sum: f64 = (0..n).map(|_| walk(&Ggx::new(alpha, alpha), wo, |_| 1.0, &mut u).weight).sum();
-            assert!((sum / f64::from(n) - 1.0).abs() < 1e-3, "{alpha} {mu}: {sum}");
-        }
-    }
-}
-
-/// Mean weight over a grid of the sampling square.
-fn furnace(m: &Surface<f64>, mu: f64) -> f64 {
-    let wo = LocalDir::from_angles(Real::acos(mu), 0.0);
-    let n = 1000;
-    let mut sum = 0.0;
-    for i in 0..n * n {
-        let u = [(f64::from(i % n) + 0.5) / f64::from(n), (f64::from(i / n) + 0.5) / f64::from(n)];
-        let s = m.sample(wo, sparrow_models::Uniforms { lobe: 0.5, dir: u });
-        sum += if s.valid { s.weight[0] / f64::from(n * n) } else { 0.0 };
-    }
-    sum
-}
-
-#[test]
-fn white_furnace_of_each_energy_choice() {
-    for alpha in [0.05, 0.2, 0.5, 1.0] {
-        for mu in [0.05, 0.1, 0.3, 0.6, 1.0] {
-            let single = furnace(&white(0, 0, 0, 0, alpha, alpha), mu);
-            let tabulated = albedo::ggx().albedo(mu, alpha);
-            assert!((single - tabulated).abs() < 1e-3, "single {alpha} {mu}: {single}, table {tabulated}");
-            let turquin = furnace(&white(0, 0, 0, 1, alpha, alpha), mu);
-            assert!((turquin - 1.0).abs() < 3e-3, "turquin {alpha} {mu}: {turquin}");
-            // The diffuse lobe is the same all around; on smooth surfaces it is bright at grazing angles alone.
-            let (both, one) = (white(0, 0, 0, 2, alpha, alpha), white(0, 0, 0, 0, alpha, alpha));
-            let wo = LocalDir::from_angles(Real::acos(mu), 0.0);
-            let n = 2000;
-            let diffuse: f64 = (0..n)
-                .map(|i| {
-                    let x = (f64::from(i) + 0.5) / f64::from(n);
-                    let wi = LocalDir::from_angles(Real::acos(x * x), 1.5);
-                    let f = both.f(wo, wi)[0] - one.f(wo, wi)[0];
-                    f * x * x * core::f64::consts::TAU * 2.0 * x / f64::from(n)
-                })
-                .sum();
-            let kulla_conty = single + diffuse;
-            assert!((kulla_conty - 1.0).abs() < 3e-3, "kulla-conty {alpha} {mu}: {kulla_conty}");
-        }
+    check(&r, "/rel_rms", (rest / all).sqrt());
+    for (k, bin) in [10, 30, 50].into_iter().enumerate() {
+        let path = format!("/pi*D~14 at alpha 10.5, 30.5, 50.5 deg/{k}");
+        check(&r, &path, bins[bin][1] / bins[bin][0]);
     }
 }
