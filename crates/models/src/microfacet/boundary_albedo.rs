@@ -1,7 +1,8 @@
 //! What facets of a boundary between dielectrics send to either side, single scattering: `E = R + T` as light energy.
 //!
 //! Height-correlated GGX as in [`single`](super::albedo::single), with Fresnel's reflectance and correlated masking of
-//! refraction [Heitz2016, eq. 23]. What `E` lacks of one is light that meets several facets. A table of 24 cosines, 20 widths and
+//! refraction [Heitz2016, eq. 23]. What `E` lacks of one is light that meets several facets; that is what the table holds, since
+//! it may be so small that `1 - E` in single precision would be rounding. A table of 24 cosines, 20 widths and
 //! 17 indices, 8 to either side of one, built at first use in double precision; the axes are those of
 //! [`AlbedoTable`](super::albedo::AlbedoTable) and the root of `(eta - 1) / (eta + 1)`, up to an index of 3, which resolves
 //! what happens at grazing angles when the index comes near one. Linear between nodes; error at most 0.014, at grazing
@@ -26,7 +27,7 @@ const QUADRATURE: [usize; 2] = [12, 32];
 /// The table and its means.
 #[derive(Debug)]
 pub struct BoundaryTable {
-    albedo: Box<[f32]>,
+    lost: Box<[f32]>,
     mean: [[f32; N_ALPHA]; N_ETA],
 }
 
@@ -79,15 +80,15 @@ fn eta_at(layer: usize) -> f64 {
 
 impl BoundaryTable {
     fn build() -> Self {
-        let mut albedo = vec![0.0; N_ETA * N_ALPHA * N_T];
-        for (at, e) in albedo.iter_mut().enumerate() {
+        let mut lost = vec![0.0; N_ETA * N_ALPHA * N_T];
+        for (at, l) in lost.iter_mut().enumerate() {
             let (col, row, layer) = (at % N_T, at / N_T % N_ALPHA, at / (N_T * N_ALPHA));
             let alpha = (row as f64 / (N_ALPHA - 1) as f64).powi(2).max(1e-3);
             let t = col as f64 / (N_T - 1) as f64;
             let mu = (t * alpha / (1.0 + alpha - t)).clamp(1e-4, 1.0);
-            *e = single(mu, alpha, eta_at(layer), QUADRATURE).min(1.0) as f32;
+            *l = (1.0 - single(mu, alpha, eta_at(layer), QUADRATURE)).max(0.0) as f32;
         }
-        let mut table = BoundaryTable { albedo: albedo.into_boxed_slice(), mean: [[0.0; N_ALPHA]; N_ETA] };
+        let mut table = BoundaryTable { lost: lost.into_boxed_slice(), mean: [[0.0; N_ALPHA]; N_ETA] };
         for layer in 0..N_ETA {
             for row in 0..N_ALPHA {
                 let alpha = (row as f64 / (N_ALPHA - 1) as f64).powi(2).max(1e-3);
@@ -95,7 +96,7 @@ impl BoundaryTable {
                 let sum: f64 = (0..n)
                     .map(|k| {
                         let mu = (f64::from(k) + 0.5) / f64::from(n);
-                        2.0 * mu * table.albedo(mu, alpha, eta_at(layer)) / f64::from(n)
+                        2.0 * mu * table.lost(mu, alpha, eta_at(layer)) / f64::from(n)
                     })
                     .sum();
                 table.mean[layer][row] = sum as f32;
@@ -104,9 +105,9 @@ impl BoundaryTable {
         table
     }
 
-    /// `E`; `mu` and `alpha` in [0, 1], `eta` the transmitted over the incident side.
+    /// `1 - E`; `mu` and `alpha` in [0, 1], `eta` the transmitted over the incident side.
     #[inline(always)]
-    pub fn albedo<R: Real>(&self, mu: R, alpha: R, eta: R) -> R {
+    pub fn lost<R: Real>(&self, mu: R, alpha: R, eta: R) -> R {
         let alpha = alpha.max(R::of(1e-3));
         let t = (mu * (R::ONE + alpha) / (mu + alpha)).min(R::ONE) * R::of((N_T - 1) as f64);
         let (col, x) = place(t, N_T);
@@ -117,7 +118,7 @@ impl BoundaryTable {
             let at = (layer[lane] as usize * N_ALPHA + row[lane] as usize) * N_T + col[lane] as usize;
             for (k, corner) in corners.iter_mut().enumerate() {
                 let step = (k & 1) + (k >> 1 & 1) * N_T + (k >> 2) * N_T * N_ALPHA;
-                corner[lane] = self.albedo[at + step];
+                corner[lane] = self.lost[at + step];
             }
         }
         let [a, b, c, d, e, f, g, h] = &corners;
@@ -126,9 +127,9 @@ impl BoundaryTable {
         near.lerp(far, z)
     }
 
-    /// `2 int E mu dmu`
+    /// `2 int (1 - E) mu dmu`
     #[inline(always)]
-    pub fn mean<R: Real>(&self, alpha: R, eta: R) -> R {
+    pub fn mean_lost<R: Real>(&self, alpha: R, eta: R) -> R {
         let (row, y) = place(alpha.max(R::of(1e-3)).sqrt() * R::of((N_ALPHA - 1) as f64), N_ALPHA);
         let (layer, z) = place(eta_place(eta), N_ETA);
         let mut corners = [[0.0; WIDEST]; 4];
@@ -155,7 +156,7 @@ mod tests {
             for alpha in [0.05, 0.2, 0.37, 0.8, 1.0] {
                 for mu in [0.05, 0.1, 0.23, 0.5, 0.71, 0.9, 1.0] {
                     let want = single(mu, alpha, eta, [40, 160]);
-                    let got = table().albedo(mu, alpha, eta);
+                    let got = 1.0 - table().lost(mu, alpha, eta);
                     if (got - want).abs() > worst.0 {
                         worst = ((got - want).abs(), mu, alpha, eta);
                     }

@@ -122,8 +122,7 @@ impl<R: Real> MicrofacetDielectric<R> {
     /// `1 - E`: the share of light from the cosine `mu` that single scattering loses; `eta` as met from its side.
     #[inline(always)]
     fn lost(&self, table: &BoundaryTable, mu: R, eta: R) -> R {
-        let kept = table.albedo(mu.min(R::ONE), self.facets.ndf().mean_width(), eta);
-        (R::ONE - kept).clamp(R::ZERO, R::of(0.99))
+        table.lost(mu.min(R::ONE), self.facets.ndf().mean_width(), eta).min(R::of(0.99))
     }
     /// The diffuse lobes over `1 - E(o)`, and the share of them that goes through. [KullaConty2017]
     ///
@@ -140,8 +139,8 @@ impl<R: Real> MicrofacetDielectric<R> {
             );
         let t_avg = R::select(eta.ge(R::ONE), enters, enters / dense.sqr());
         let width = self.facets.ndf().mean_width();
-        let here = (R::ONE - table.mean(width, eta)).max(R::of(1e-6));
-        let there = (R::ONE - table.mean(width, R::ONE / eta)).max(R::of(1e-6));
+        let here = table.mean_lost(width, eta).max(R::of(1e-6));
+        let there = table.mean_lost(width, R::ONE / eta).max(R::of(1e-6));
         let through = t_avg * (here.min(there) / here);
         let reflects = i.above();
         let lost_i = self.lost(table, i.abs_cos_theta(), R::select(reflects, eta, R::ONE / eta));
