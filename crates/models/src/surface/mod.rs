@@ -17,6 +17,7 @@ mod eon;
 mod lambert;
 mod microfacet_dielectric;
 mod microfacet_reflection;
+mod minnaert;
 mod oren_nayar;
 mod phong;
 mod poulin_fournier;
@@ -36,6 +37,7 @@ models! {
         Lambert = lambert::Lambert, "lambert";
         OrenNayar = oren_nayar::OrenNayar, "oren_nayar";
         Eon = eon::Eon, "eon";
+        Minnaert = minnaert::Minnaert, "minnaert";
         Phong = phong::Phong, "phong";
         BlinnPhong = blinn_phong::BlinnPhong, "blinn_phong";
         TorranceSparrow = torrance_sparrow::TorranceSparrow, "torrance_sparrow";
