@@ -20,9 +20,15 @@ pub trait InLanes {
 #[inline]
 pub fn in_lanes<W: InLanes>(work: W) -> W::Output {
     #[cfg(target_arch = "x86_64")]
-    return if std::arch::is_x86_feature_detected!("avx2") { avx2::run(work) } else { work.run::<f32>() };
+    return if std::arch::is_x86_feature_detected!("avx2") { avx2::run(work) } else { one_by_one(work) };
     #[cfg(not(target_arch = "x86_64"))]
     work.run::<crate::Lanes<8>>()
+}
+
+/// Runs `work` in `f32`: for what does not fill the lanes.
+#[inline(never)]
+pub fn one_by_one<W: InLanes>(work: W) -> W::Output {
+    work.run::<f32>()
 }
 
 /// Lanes as AVX2 registers.

@@ -7,7 +7,7 @@
 use core::marker::PhantomData;
 use core::ops::Range;
 
-use sparrow_math::{InLanes, LocalDir, Real, in_lanes, vec3};
+use sparrow_math::{InLanes, LocalDir, Real, in_lanes, one_by_one, vec3};
 use sparrow_spectra::{N_LAMBDA, Spectrum};
 
 use crate::{
@@ -221,7 +221,7 @@ pub(crate) fn eval<F: Family>(
     let n = out.pdf.len();
     let whole = n - n % WIDTH;
     in_lanes(Eval::<F> { p, wo, wi, out, range: 0..whole, family: PhantomData });
-    Eval::<F> { p, wo, wi, out, range: whole..n, family: PhantomData }.run::<f32>();
+    one_by_one(Eval::<F> { p, wo, wi, out, range: whole..n, family: PhantomData });
 }
 
 /// Samples one model, in lanes as far as they are filled.
@@ -235,5 +235,5 @@ pub(crate) fn draw<F: Family>(
     let n = out.density.len();
     let whole = n - n % WIDTH;
     in_lanes(Draw::<F> { p, wo, u, out, range: 0..whole, family: PhantomData });
-    Draw::<F> { p, wo, u, out, range: whole..n, family: PhantomData }.run::<f32>();
+    one_by_one(Draw::<F> { p, wo, u, out, range: whole..n, family: PhantomData });
 }
