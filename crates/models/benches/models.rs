@@ -7,7 +7,7 @@
 use criterion::{BatchSize, Criterion, criterion_group, criterion_main};
 use sparrow_math::{LocalDir, Real, vec3};
 use sparrow_models::batch::{self, DirColumns, EvalColumns, ParamColumns, SampleColumns};
-use sparrow_models::{Bsdf, ParamBlock, ParamKind, SurfaceKind, Uniforms};
+use sparrow_models::{Bsdf, ParamBlock, ParamKind, Surface, SurfaceKind, Uniforms};
 use std::hint::black_box;
 
 const N: usize = 4096;
@@ -83,7 +83,10 @@ fn dir<R: Real>(c: &[Vec<f32>; 3], i: usize) -> LocalDir<R> {
     LocalDir::new(vec3(R::of(f64::from(c[0][i])), R::of(f64::from(c[1][i])), R::of(f64::from(c[2][i]))))
 }
 
-fn scalar<R: Real>(c: &mut Criterion, kind: SurfaceKind, label: &str) {
+fn scalar<R: Real>(c: &mut Criterion, kind: SurfaceKind, label: &str)
+where
+    Surface<R>: Bsdf<R>,
+{
     let x = Inputs::new(kind);
     let block = black_box(x.block::<R>());
     c.bench_function(&format!("{} f+pdf {label}", kind.name()), |b| {

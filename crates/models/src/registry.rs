@@ -111,6 +111,55 @@ pub trait Model<R>: Sized {
     fn new(params: &ParamBlock<R>) -> Self;
 }
 
+/// The contract of the enum over one number type.
+///
+/// Not generic, so that it is compiled here once and not again in every crate that calls it.
+macro_rules! dispatch {
+    ($Enum:ident, $Trait:ident, $R:ty: $($Variant:ident)*) => {
+        impl $crate::$Trait<$R> for $Enum<$R> {
+            fn f(&self, wo: sparrow_math::LocalDir<$R>, wi: sparrow_math::LocalDir<$R>) -> sparrow_spectra::Spectrum<$R> {
+                match self {
+                    $( $Enum::$Variant(m) => m.f(wo, wi), )*
+                }
+            }
+            fn pdf(&self, wo: sparrow_math::LocalDir<$R>, wi: sparrow_math::LocalDir<$R>) -> $R {
+                match self {
+                    $( $Enum::$Variant(m) => m.pdf(wo, wi), )*
+                }
+            }
+            fn f_cos_pdf(
+                &self,
+                wo: sparrow_math::LocalDir<$R>,
+                wi: sparrow_math::LocalDir<$R>,
+            ) -> (sparrow_spectra::Spectrum<$R>, $R) {
+                match self {
+                    $( $Enum::$Variant(m) => m.f_cos_pdf(wo, wi), )*
+                }
+            }
+            fn sample(
+                &self,
+                wo: sparrow_math::LocalDir<$R>,
+                u: $crate::Uniforms<$R>,
+            ) -> $crate::BsdfSample<$R> {
+                match self {
+                    $( $Enum::$Variant(m) => m.sample(wo, u), )*
+                }
+            }
+            fn has_smooth_lobe(&self) -> bool {
+                match self {
+                    $( $Enum::$Variant(m) => m.has_smooth_lobe(), )*
+                }
+            }
+            fn regularized(self) -> Self {
+                match self {
+                    $( $Enum::$Variant(m) => $Enum::$Variant(m.regularized()), )*
+                }
+            }
+        }
+    };
+}
+pub(crate) use dispatch;
+
 macro_rules! models {
     (
         $(#[$doc:meta])*
@@ -210,52 +259,8 @@ macro_rules! models {
             }
         }
 
-        impl<R: sparrow_math::Real> $crate::$Trait<R> for $Enum<R> {
-            #[inline]
-            fn f(&self, wo: sparrow_math::LocalDir<R>, wi: sparrow_math::LocalDir<R>) -> sparrow_spectra::Spectrum<R> {
-                match self {
-                    $( $Enum::$Variant(m) => m.f(wo, wi), )*
-                }
-            }
-            #[inline]
-            fn pdf(&self, wo: sparrow_math::LocalDir<R>, wi: sparrow_math::LocalDir<R>) -> R {
-                match self {
-                    $( $Enum::$Variant(m) => m.pdf(wo, wi), )*
-                }
-            }
-            #[inline]
-            fn f_cos_pdf(
-                &self,
-                wo: sparrow_math::LocalDir<R>,
-                wi: sparrow_math::LocalDir<R>,
-            ) -> (sparrow_spectra::Spectrum<R>, R) {
-                match self {
-                    $( $Enum::$Variant(m) => m.f_cos_pdf(wo, wi), )*
-                }
-            }
-            #[inline]
-            fn sample(
-                &self,
-                wo: sparrow_math::LocalDir<R>,
-                u: $crate::Uniforms<R>,
-            ) -> $crate::BsdfSample<R> {
-                match self {
-                    $( $Enum::$Variant(m) => m.sample(wo, u), )*
-                }
-            }
-            #[inline]
-            fn has_smooth_lobe(&self) -> R::Mask {
-                match self {
-                    $( $Enum::$Variant(m) => m.has_smooth_lobe(), )*
-                }
-            }
-            #[inline]
-            fn regularized(self) -> Self {
-                match self {
-                    $( $Enum::$Variant(m) => $Enum::$Variant(m.regularized()), )*
-                }
-            }
-        }
+        $crate::registry::dispatch! { $Enum, $Trait, f32: $($Variant)* }
+        $crate::registry::dispatch! { $Enum, $Trait, f64: $($Variant)* }
     };
 }
 pub(crate) use models;
