@@ -116,7 +116,7 @@ fn mu_at(col: usize) -> f64 {
 ///
 /// `cargo test --release -p sparrow-models --lib write_the_table -- --ignored --nocapture`
 #[test]
-#[ignore = "writes the table"]
+#[ignore = "a generator, run by hand when the fit changes"]
 #[allow(clippy::print_stdout, reason = "a generator reports to its user")]
 fn write_the_table() {
     let mut text = String::from(
