@@ -114,6 +114,10 @@ impl<const N: usize, const F: bool> Real for Lanes<N, F> {
         s[i..i + N].copy_from_slice(&self.0);
     }
     #[inline(always)]
+    fn look_up(self, table: &[f32]) -> Self {
+        Lanes(each!(N, i => self.0[i].look_up(table)))
+    }
+    #[inline(always)]
     fn sqrt(self) -> Self {
         Lanes(each!(N, i => self.0[i].sqrt()))
     }

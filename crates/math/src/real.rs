@@ -32,6 +32,9 @@ impl Mask for bool {
     }
 }
 
+/// Most lanes of a number type.
+pub const MAX_WIDTH: usize = 16;
+
 /// A real number, or several side by side: `f32`, `f64`, [`Lanes`](crate::Lanes).
 ///
 /// A model is written once over this trait. What scalar code does with an early return is done with
@@ -69,6 +72,23 @@ pub trait Real:
     ///
     /// Panics where the slice is too short.
     fn store(self, s: &mut [f32], i: usize);
+    /// Reads the number of `table` that stands at the whole number `self`, every lane its own; before the beginning the
+    /// first, beyond the end the last.
+    ///
+    /// Panics where the table is empty.
+    fn look_up(self, table: &[f32]) -> Self;
+    /// The number in every lane, for what is computed one by one; lanes beyond `WIDTH` are zero.
+    #[inline(always)]
+    fn to_doubles(self) -> [f64; MAX_WIDTH] {
+        let mut s = [0.0; MAX_WIDTH];
+        self.store(&mut s, 0);
+        s.map(f64::from)
+    }
+    /// Takes a number for every lane, rounded to the precision of the type.
+    #[inline(always)]
+    fn from_doubles(x: &[f64; MAX_WIDTH]) -> Self {
+        Self::load(&x.map(|x| x as f32), 0)
+    }
     /// Square root, correctly rounded; NaN below zero.
     fn sqrt(self) -> Self;
     /// Magnitude.
@@ -209,6 +229,10 @@ impl Real for f32 {
         s[i] = self;
     }
     #[inline(always)]
+    fn look_up(self, table: &[f32]) -> f32 {
+        table[(self as usize).min(table.len() - 1)]
+    }
+    #[inline(always)]
     fn sqrt(self) -> f32 {
         f32::sqrt(self)
     }
@@ -275,6 +299,20 @@ impl Real for f64 {
     #[inline(always)]
     fn store(self, s: &mut [f32], i: usize) {
         s[i] = self as f32;
+    }
+    #[inline(always)]
+    fn look_up(self, table: &[f32]) -> f64 {
+        f64::from(table[(self as usize).min(table.len() - 1)])
+    }
+    #[inline(always)]
+    fn to_doubles(self) -> [f64; MAX_WIDTH] {
+        let mut x = [0.0; MAX_WIDTH];
+        x[0] = self;
+        x
+    }
+    #[inline(always)]
+    fn from_doubles(x: &[f64; MAX_WIDTH]) -> f64 {
+        x[0]
     }
     #[inline(always)]
     fn sqrt(self) -> f64 {

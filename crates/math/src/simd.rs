@@ -41,9 +41,10 @@ mod avx2 {
     use core::arch::x86_64::{
         __m256, _CMP_LE_OQ, _CMP_LT_OQ, _mm256_add_epi32, _mm256_add_ps, _mm256_and_ps, _mm256_andnot_ps,
         _mm256_blendv_ps, _mm256_castps_si256, _mm256_castsi256_ps, _mm256_cmp_ps, _mm256_cvtepi32_ps,
-        _mm256_div_ps, _mm256_loadu_ps, _mm256_max_ps, _mm256_min_ps, _mm256_movemask_ps, _mm256_mul_ps,
-        _mm256_or_ps, _mm256_set1_epi32, _mm256_set1_ps, _mm256_slli_epi32, _mm256_sqrt_ps,
-        _mm256_srli_epi32, _mm256_storeu_ps, _mm256_sub_epi32, _mm256_sub_ps, _mm256_xor_ps,
+        _mm256_cvttps_epi32, _mm256_div_ps, _mm256_i32gather_ps, _mm256_loadu_ps, _mm256_max_ps,
+        _mm256_min_epu32, _mm256_min_ps, _mm256_movemask_ps, _mm256_mul_ps, _mm256_or_ps, _mm256_set1_epi32,
+        _mm256_set1_ps, _mm256_setzero_ps, _mm256_slli_epi32, _mm256_sqrt_ps, _mm256_srli_epi32,
+        _mm256_storeu_ps, _mm256_sub_epi32, _mm256_sub_ps, _mm256_xor_ps,
     };
     use core::fmt::{Debug, Formatter};
     use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
@@ -186,6 +187,17 @@ mod avx2 {
             let s = &mut s[i..i + 8];
             // SAFETY: `s` holds eight numbers.
             avx!(_mm256_storeu_ps(s.as_mut_ptr(), self.0));
+        }
+        #[inline(always)]
+        fn look_up(self, table: &[f32]) -> F32x8 {
+            assert!(!table.is_empty(), "look_up in an empty table");
+            let last = table.len().min(i32::MAX as usize) - 1;
+            // SAFETY: no index is larger than the last: what does not fit into an i32 converts to 2^31.
+            F32x8(avx!({
+                let index = _mm256_cvttps_epi32(_mm256_max_ps(self.0, _mm256_setzero_ps()));
+                let index = _mm256_min_epu32(index, _mm256_set1_epi32(last as i32));
+                _mm256_i32gather_ps::<4>(table.as_ptr(), index)
+            }))
         }
         #[inline(always)]
         fn sqrt(self) -> F32x8 {

@@ -24,7 +24,7 @@ const EDGES: [f32; 16] = [
 
 /// What `Real` can do, of two numbers; comparisons as 0 and 1.
 #[inline(always)]
-fn everything<R: Real>(a: R, b: R) -> [R; 25] {
+fn everything<R: Real>(a: R, b: R) -> [R; 26] {
     let bit = |m: R::Mask| R::ONE.only_where(m);
     let (mantissa, exponent) = a.frexp();
     let (sin, cos) = a.sin_cos();
@@ -54,6 +54,7 @@ fn everything<R: Real>(a: R, b: R) -> [R; 25] {
         a.abs().ln(),
         sin + cos,
         a.atan2(b),
+        a.look_up(&EDGES),
     ]
 }
 
@@ -63,7 +64,7 @@ impl InLanes for Everything<'_> {
     type Output = (usize, Vec<f32>);
     #[inline(always)]
     fn run<R: Real>(self) -> (usize, Vec<f32>) {
-        let mut all = vec![0.0; 25 * self.0.len()];
+        let mut all = vec![0.0; 26 * self.0.len()];
         for i in (0..self.0.len()).step_by(R::WIDTH) {
             let results = everything(R::load(self.0, i), R::load(self.1, i));
             for (k, r) in results.into_iter().enumerate() {

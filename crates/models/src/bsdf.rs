@@ -49,10 +49,10 @@ impl<R: Real> BsdfSample<R> {
 /// Conventions of directions and measures: see the table in the crate's documentation. Nothing here
 /// allocates, and nothing checks its input: directions are of unit length.
 pub trait Bsdf<R: Real>: Copy {
-    /// `f(wo, wi)` in 1/sr, for radiance. Zero where nothing is scattered; without delta lobes. Never NaN.
-    fn f(&self, wo: LocalDir<R>, wi: LocalDir<R>) -> Spectrum<R>;
-    /// Density with which `sample` returns `wi`, in 1/sr. Zero for delta lobes.
-    fn pdf(&self, wo: LocalDir<R>, wi: LocalDir<R>) -> R;
+    /// `f(wo, wi) |cos theta_i|` for radiance, and the density in 1/sr with which `sample` returns `wi`; `f` in 1/sr.
+    ///
+    /// Zero where nothing is scattered; without delta lobes. Never NaN.
+    fn f_cos_pdf(&self, wo: LocalDir<R>, wi: LocalDir<R>) -> (Spectrum<R>, R);
     /// Draws `wi`; the sample's mask says where the path goes on.
     fn sample(&self, wo: LocalDir<R>, u: Uniforms<R>) -> BsdfSample<R>;
     /// Where the model has a lobe that is no delta, so that [`f`](Self::f) can be other than zero.
@@ -65,14 +65,21 @@ pub trait Bsdf<R: Real>: Copy {
     fn regularized(self) -> Self {
         self
     }
-    /// `f * |cos theta_i|`.
+    /// `f(wo, wi)` alone; zero for directions within the surface.
+    #[inline(always)]
+    fn f(&self, wo: LocalDir<R>, wi: LocalDir<R>) -> Spectrum<R> {
+        let cos = wi.abs_cos_theta();
+        let some = cos.gt(R::ZERO);
+        (self.f_cos(wo, wi) / R::select(some, cos, R::ONE)).only_where(some)
+    }
+    /// `f |cos theta_i|` alone.
     #[inline(always)]
     fn f_cos(&self, wo: LocalDir<R>, wi: LocalDir<R>) -> Spectrum<R> {
-        self.f(wo, wi) * wi.abs_cos_theta()
+        self.f_cos_pdf(wo, wi).0
     }
-    /// `f * |cos theta_i|` and the density together: what both share is then computed once.
+    /// The density alone.
     #[inline(always)]
-    fn f_cos_pdf(&self, wo: LocalDir<R>, wi: LocalDir<R>) -> (Spectrum<R>, R) {
-        (self.f_cos(wo, wi), self.pdf(wo, wi))
+    fn pdf(&self, wo: LocalDir<R>, wi: LocalDir<R>) -> R {
+        self.f_cos_pdf(wo, wi).1
     }
 }

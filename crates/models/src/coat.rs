@@ -15,6 +15,7 @@ use sparrow_math::{LocalDir, Real, Vec3, vec3};
 
 use crate::fresnel;
 use crate::ggx::{ALPHA_SMOOTH, Ggx};
+use crate::table::{Place, interpolate};
 
 /// The coat at one point.
 #[derive(Clone, Copy, Debug)]
@@ -33,7 +34,7 @@ impl<R: Real> Coat<R> {
     #[inline(always)]
     pub(crate) fn new(alpha: [R; 2], eta: R, thickness: R) -> Self {
         let ggx = Ggx::new(alpha[0], alpha[1]);
-        let t_avg = R::ONE - per_lane([width(alpha), eta, R::ZERO], |a, eta, _| table().mean(a, eta));
+        let t_avg = R::ONE - table().mean(width(alpha), eta);
         Coat { eta, alpha, ggx, thickness, t_avg }
     }
 
@@ -66,7 +67,7 @@ impl<R: Real> Coat<R> {
     pub(crate) fn albedo(&self, cos_theta: R) -> R {
         let alpha = self.alpha();
         let cos_d = R::select(self.is_smooth(), cos_theta, facet_cosine(cos_theta, alpha));
-        let ratio = per_lane([cos_theta, alpha, self.eta], |c, a, eta| table().ratio(c, a, eta));
+        let ratio = table().ratio(cos_theta, alpha, self.eta);
         let ratio = R::select(self.is_smooth(), R::ONE, ratio);
         (fresnel::dielectric(cos_d, self.eta).0 * ratio).min(R::ONE)
     }
@@ -107,13 +108,13 @@ impl<R: Real> Coat<R> {
     /// Of the light that enters from `cos_theta`, the share that facets of width `alpha_base` keep inside at first.
     #[inline(always)]
     pub(crate) fn kept(&self, cos_theta: R, alpha_base: R) -> R {
-        per_lane([cos_theta, alpha_base, self.eta], |c, a, eta| kept_table().ratio(c, a, eta))
+        kept_table().ratio(cos_theta, alpha_base, self.eta)
     }
 
     /// `int 2 mu T kept dmu`, of a smooth coat.
     #[inline(always)]
     pub(crate) fn kept_avg(&self, alpha_base: R) -> R {
-        per_lane([alpha_base, self.eta, R::ZERO], |a, eta, _| kept_table().mean(a, eta))
+        kept_table().mean(alpha_base, self.eta)
     }
 
     /// The share of light that passes the coat once at `cos_inside`.
@@ -178,27 +179,13 @@ fn facet_cosine<R: Real>(cos_theta: R, alpha: R) -> R {
     (cos_theta + R::of(0.5) * alpha * (R::ONE - cos_theta).sqr()).clamp(R::ZERO, R::ONE)
 }
 
-/// A function of tables, lane by lane.
-#[inline(always)]
-fn per_lane<R: Real>(x: [R; 3], f: impl Fn(f32, f32, f32) -> f32) -> R {
-    const MOST: usize = 16;
-    debug_assert!(R::WIDTH <= MOST, "wider lanes need a longer buffer");
-    let mut buffer = [[0.0f32; MOST]; 3];
-    for (slot, v) in buffer.iter_mut().zip(x) {
-        v.store(slot, 0);
-    }
-    let [a, b, c] = &mut buffer;
-    for i in 0..R::WIDTH {
-        a[i] = f(a[i], b[i], c[i]);
-    }
-    R::load(a, 0)
-}
-
 const N_MU: usize = 24;
 const N_ALPHA: usize = 16;
 const N_ETA: usize = 10;
 /// Largest index of the tables; beyond it the values of this one hold.
-const ETA_MAX: f32 = 3.0;
+const ETA_MAX: f64 = 3.0;
+/// `(eta - 1) / (eta + 1)` there.
+const S_MAX: f64 = (ETA_MAX - 1.0) / (ETA_MAX + 1.0);
 
 /// Albedo of the GGX interface over Fresnel's reflectance at [`facet_cosine`], and its mean.
 ///
@@ -221,50 +208,34 @@ fn kept_table() -> &'static Table {
     TABLE.get_or_init(Table::compute_kept)
 }
 
-/// Cell and place within it of `x` in 0..1 among `n` nodes.
+/// The place of a slope width on its axis.
 #[inline(always)]
-fn cell(x: f32, n: usize) -> (usize, f32) {
-    let x = x.clamp(0.0, 1.0) * (n - 1) as f32;
-    let i = (x as usize).min(n - 2);
-    (i, x - i as f32)
+fn alpha_place<R: Real>(alpha: R) -> Place<R> {
+    Place::unit(N_ALPHA, alpha.sqrt())
 }
 
+/// The place of an index on its axis.
 #[inline(always)]
-fn alpha_cell(alpha: f32) -> (usize, f32) {
-    cell(alpha.sqrt(), N_ALPHA)
-}
-
-#[inline(always)]
-fn eta_cell(eta: f32) -> (usize, f32) {
-    let most = (ETA_MAX - 1.0) / (ETA_MAX + 1.0);
-    cell((eta - 1.0) / ((eta + 1.0) * most), N_ETA)
+fn eta_place<R: Real>(eta: R) -> Place<R> {
+    Place::unit(N_ETA, (eta - R::ONE) / ((eta + R::ONE) * R::of(S_MAX)))
 }
 
 fn eta_of(k: usize) -> f64 {
-    let most = f64::from((ETA_MAX - 1.0) / (ETA_MAX + 1.0));
-    let s = most * k as f64 / (N_ETA - 1) as f64;
+    let s = S_MAX * k as f64 / (N_ETA - 1) as f64;
     (1.0 + s) / (1.0 - s)
-}
-
-#[inline(always)]
-fn bilinear(rows: &[[f32; N_ETA]; N_ALPHA], (j, y): (usize, f32), (k, z): (usize, f32)) -> f32 {
-    let row = |j: usize| rows[j][k] + z * (rows[j][k + 1] - rows[j][k]);
-    row(j) + y * (row(j + 1) - row(j))
 }
 
 impl Table {
     #[inline(always)]
-    fn ratio(&self, cos_theta: f32, alpha: f32, eta: f32) -> f32 {
-        let c = alpha + 0.02;
-        let (i, x) = cell(cos_theta * (1.0 + c) / (cos_theta + c), N_MU);
-        let (a, e) = (alpha_cell(alpha), eta_cell(eta));
-        let low = bilinear(&self.ratio[i], a, e);
-        low + x * (bilinear(&self.ratio[i + 1], a, e) - low)
+    fn ratio<R: Real>(&self, cos_theta: R, alpha: R, eta: R) -> R {
+        let c = alpha + R::of(0.02);
+        let mu = Place::unit(N_MU, cos_theta * (R::ONE + c) / (cos_theta + c));
+        interpolate(self.ratio.as_flattened().as_flattened(), [mu, alpha_place(alpha), eta_place(eta)])
     }
 
     #[inline(always)]
-    fn mean(&self, alpha: f32, eta: f32) -> f32 {
-        bilinear(&self.mean, alpha_cell(alpha), eta_cell(eta))
+    fn mean<R: Real>(&self, alpha: R, eta: R) -> R {
+        interpolate(self.mean.as_flattened(), [alpha_place(alpha), eta_place(eta)])
     }
 
     fn compute() -> Table {
@@ -310,7 +281,7 @@ impl Table {
             let sum: f64 = (0..n)
                 .map(|i| {
                     let mu = (f64::from(i) + 0.5) / f64::from(n);
-                    let kept = f64::from(table.ratio(mu as f32, alpha as f32, eta_of(k) as f32));
+                    let kept = table.ratio(mu, alpha, eta_of(k));
                     2.0 * mu * (1.0 - fresnel::dielectric(mu, eta_of(k)).0) * kept
                 })
                 .sum();
@@ -325,7 +296,7 @@ impl Table {
         let sum: f64 = (0..n)
             .map(|i| {
                 let mu = (f64::from(i) + 0.5) / f64::from(n);
-                let ratio = f64::from(self.ratio(mu as f32, alpha as f32, eta as f32));
+                let ratio = self.ratio(mu, alpha, eta);
                 let fresnel = fresnel::dielectric(facet_cosine(mu, alpha), eta).0;
                 2.0 * mu * (ratio * fresnel).min(1.0)
             })
@@ -381,12 +352,6 @@ fn kept_by_facets(mu: f64, alpha: f64, eta: f64) -> f64 {
         }
     }
     (1.0 - leaves / (N * N / 2) as f64).clamp(0.0, 1.0)
-}
-
-/// Mirrors `w` so that `wo` is above.
-#[inline(always)]
-pub(crate) fn raised<R: Real>(wo: LocalDir<R>, w: LocalDir<R>) -> LocalDir<R> {
-    LocalDir::new(Vec3 { z: R::select(wo.z().lt(R::ZERO), -w.z(), w.z()), ..w.v() })
 }
 
 #[cfg(test)]

@@ -11,38 +11,45 @@ pub fn dielectric<R: Real>(cos_i: R, eta: R) -> (R, R) {
     // cos_t^2 = 1 - (1 - cos_i^2) / eta^2, without the cancellation at grazing angles and equal indices.
     let cos2_t = (cos_i * cos_i + (eta - R::ONE) * (eta + R::ONE)) / (eta * eta);
     let cos_t = cos2_t.safe_sqrt();
-    let r_p = (eta * cos_i - cos_t) / (eta * cos_i + cos_t);
-    let r_s = (cos_i - eta * cos_t) / (cos_i + eta * cos_t);
-    let f = (r_p * r_p + r_s * r_s) * R::of(0.5);
+    // Numerators and denominators of r_p and r_s, brought to one division.
+    let (p, s) = (eta * cos_i, eta * cos_t);
+    let (n_p, d_p, n_s, d_s) = (p - cos_t, p + cos_t, cos_i - s, cos_i + s);
+    let f = R::of(0.5) * ((n_p * d_s).sqr() + (n_s * d_p).sqr()) / (d_p * d_s).sqr();
     let total = cos2_t.le(R::ZERO);
     (R::select(total, R::ONE, f), R::select(total, R::ZERO, cos_t))
 }
 
-/// Reflectance of a smooth conductor with the complex index `eta + i k`, relative to the outside.
-///
-/// `cos_i` in [0, 1]. [BornWolf, sec. 14.2], arranged to need no complex square root.
+/// The terms of both reflectances of a conductor with the complex index `eta + i k`, relative to the outside:
+/// `R_s = (t1 - t2) / (t1 + t2)` and `R_p = R_s (t3 - t4) / (t3 + t4)`. [BornWolf, sec. 14.2], arranged to need no complex
+/// square root.
 #[inline(always)]
-pub fn conductor<R: Real>(cos_i: R, eta: R, k: R) -> R {
-    let (r_s, r_p) = conductor_polarized(cos_i, eta, k);
-    (r_s + r_p) * R::of(0.5)
-}
-
-/// The two reflectances of [`conductor`]: electric field across the plane of incidence (s), and within it (p).
-#[inline(always)]
-pub fn conductor_polarized<R: Real>(cos_i: R, eta: R, k: R) -> (R, R) {
+fn conductor_terms<R: Real>(cos_i: R, eta: R, k: R) -> [R; 4] {
     let c2 = cos_i * cos_i;
     let s2 = R::ONE - c2;
     let t0 = eta * eta - k * k - s2;
     let ab = (t0 * t0 + R::of(4.0) * eta * eta * k * k).sqrt();
     let a = ((ab + t0) * R::of(0.5)).safe_sqrt();
-    let t1 = ab + c2;
     let t2 = R::of(2.0) * a * cos_i;
     // Far below any other term; makes 0 / 0 one, which is what an index of zero reflects at any angle, and any index at grazing.
     let tiny = R::of(1e-30);
-    let r_s = (t1 - t2 + tiny) / (t1 + t2 + tiny);
-    let t3 = c2 * ab + s2 * s2;
-    let t4 = t2 * s2;
-    (r_s, r_s * ((t3 - t4 + tiny) / (t3 + t4 + tiny)))
+    [ab + c2 + tiny, t2, c2 * ab + s2 * s2 + tiny, t2 * s2]
+}
+
+/// Reflectance of a smooth conductor with the complex index `eta + i k`, relative to the outside.
+///
+/// `cos_i` in [0, 1]. The mean of [`conductor_polarized`], in which both numerators of `R_p` add up.
+#[inline(always)]
+pub fn conductor<R: Real>(cos_i: R, eta: R, k: R) -> R {
+    let [t1, t2, t3, t4] = conductor_terms(cos_i, eta, k);
+    (t1 - t2) * t3 / ((t1 + t2) * (t3 + t4))
+}
+
+/// The two reflectances of [`conductor`]: electric field across the plane of incidence (s), and within it (p).
+#[inline(always)]
+pub fn conductor_polarized<R: Real>(cos_i: R, eta: R, k: R) -> (R, R) {
+    let [t1, t2, t3, t4] = conductor_terms(cos_i, eta, k);
+    let r_s = (t1 - t2) / (t1 + t2);
+    (r_s, r_s * ((t3 - t4) / (t3 + t4)))
 }
 
 /// `x^5`

@@ -25,6 +25,11 @@ impl<R: Real> Ggx<R> {
     pub fn new(alpha_x: R, alpha_y: R) -> Self {
         Ggx { alpha_x: alpha_x.max(R::of(ALPHA_MIN)), alpha_y: alpha_y.max(R::of(ALPHA_MIN)) }
     }
+    /// The widths that the formulas are evaluated with.
+    #[inline(always)]
+    pub(crate) fn alphas(&self) -> [R; 2] {
+        [self.alpha_x, self.alpha_y]
+    }
     /// The surface is a mirror in both directions.
     #[inline(always)]
     pub fn is_smooth(&self) -> R::Mask {
@@ -43,11 +48,12 @@ impl<R: Real> Ggx<R> {
 
     /// `D(m)`, per steradian; integrates to one with the weight `cos theta_m`. [Heitz2014, eq. 85]
     ///
-    /// In vector form, which keeps its digits at grazing normals.
+    /// In vector form, which keeps its digits at grazing normals, times powers of the widths, which leaves one division.
     #[inline(always)]
     pub fn d(&self, m: LocalDir<R>) -> R {
-        let s = (m.x() / self.alpha_x).sqr() + (m.y() / self.alpha_y).sqr() + m.z().sqr();
-        R::ONE / (R::of(PI) * self.alpha_x * self.alpha_y * s.sqr())
+        let a = self.alpha_x * self.alpha_y;
+        let s = (m.x() * self.alpha_y).sqr() + (m.y() * self.alpha_x).sqr() + (m.z() * a).sqr();
+        a * (a / s).sqr() * R::of(1.0 / PI)
     }
     /// `|cos theta| (1 + 2 Lambda(w))`, free of divisions. [Heitz2014, eq. 86]
     #[inline(always)]
@@ -59,10 +65,23 @@ impl<R: Real> Ggx<R> {
     pub fn g2_over_4cos(&self, wo: LocalDir<R>, wi: LocalDir<R>) -> R {
         R::of(0.5) / self.crossed(wo, wi)
     }
+    /// [`g2_over_4cos`](Self::g2_over_4cos), and the density of the direction mirrored at a visible normal over `D`, which
+    /// is [`visible_over_cos`](Self::visible_over_cos) over `4 D`: together they take one division.
+    #[inline(always)]
+    pub fn g2_over_4cos_and_density(&self, wo: LocalDir<R>, wi: LocalDir<R>) -> (R, R) {
+        let (crossed, seen) = (self.crossed(wo, wi), self.seen(wo));
+        let half = R::of(0.5) / (crossed * seen);
+        (half * seen, half * crossed)
+    }
     /// `G2(wo, wi) / G1(wo)`
     #[inline(always)]
     pub fn g2_over_g1(&self, wo: LocalDir<R>, wi: LocalDir<R>) -> R {
-        wi.abs_cos_theta() * (wo.abs_cos_theta() + self.stretched(wo)) / self.crossed(wo, wi)
+        wi.abs_cos_theta() * self.seen(wo) / self.crossed(wo, wi)
+    }
+    /// `2 |cos theta| / G1`
+    #[inline(always)]
+    fn seen(&self, w: LocalDir<R>) -> R {
+        w.abs_cos_theta() + self.stretched(w)
     }
     /// `2 |cos_o| |cos_i| / G2`: the denominator that the correlated forms share.
     #[inline(always)]
@@ -74,7 +93,7 @@ impl<R: Real> Ggx<R> {
     /// Divided by four it is the density of the reflected direction.
     #[inline(always)]
     pub fn visible_over_cos(&self, wo: LocalDir<R>, m: LocalDir<R>) -> R {
-        R::of(2.0) * self.d(m) / (wo.abs_cos_theta() + self.stretched(wo))
+        R::of(2.0) * self.d(m) / self.seen(wo)
     }
     /// A normal among those visible from `wo`, on the upper side. [DupuyBenyoub2023, listing 3]
     ///

@@ -46,8 +46,10 @@ pub mod microfacet;
 mod mirror_facets;
 mod opaque;
 mod params;
+mod per_lane;
 mod registry;
 mod surface;
+mod table;
 mod v_cavity;
 
 pub use bsdf::{Bsdf, BsdfSample, Uniforms};

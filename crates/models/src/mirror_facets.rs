@@ -7,58 +7,68 @@ use sparrow_math::{LocalDir, Real, Vec3, vec3};
 use sparrow_spectra::Spectrum;
 
 use crate::ggx::Ggx;
-use crate::{BsdfSample, Uniforms};
+use crate::{Bsdf, BsdfSample, Uniforms};
 
-/// `f`, with the reflectance `F(cos)` of a facet.
-#[allow(non_snake_case, reason = "names of the formula")]
-#[inline(always)]
-pub(crate) fn f<R: Real>(
-    ggx: &Ggx<R>,
-    wo: LocalDir<R>,
-    wi: LocalDir<R>,
-    F: impl Fn(R) -> Spectrum<R>,
-) -> Spectrum<R> {
-    let lit = wo.same_side(wi) & !ggx.is_smooth();
-    let m = wo.half(wi);
-    let D = ggx.d(m); // [Heitz2014, eq. 85]
-    let G = ggx.g2_over_4cos(wo, wi); // [Heitz2014, eq. 99]
-    let F = F(wo.dot(m).abs().min(R::ONE));
-    (F * (D * G)).only_where(lit)
+/// What one facet reflects.
+pub(crate) trait FacetReflectance<R: Real>: Copy {
+    /// `F(cos)`, the cosine between either direction and the facet's normal.
+    fn at(&self, cos: R) -> Spectrum<R>;
 }
 
-/// Density of [`sample`], zero for mirrors.
-#[inline(always)]
-pub(crate) fn pdf<R: Real>(ggx: &Ggx<R>, wo: LocalDir<R>, wi: LocalDir<R>) -> R {
-    let lit = wo.same_side(wi) & !ggx.is_smooth();
-    let m = wo.half(wi);
-    (ggx.visible_over_cos(wo, m) * R::of(0.25)).only_where(lit)
+/// Facets that reflect by `F`.
+#[derive(Clone, Copy, Debug)]
+pub struct MirrorFacets<R, F> {
+    pub(crate) ggx: Ggx<R>,
+    pub(crate) reflectance: F,
 }
 
-/// Reflects `wo` at a visible facet.
-#[allow(non_snake_case, reason = "names of the formula")]
-#[inline(always)]
-pub(crate) fn sample<R: Real>(
-    ggx: &Ggx<R>,
-    wo: LocalDir<R>,
-    u: Uniforms<R>,
-    F: impl Fn(R) -> Spectrum<R>,
-) -> BsdfSample<R> {
-    let delta = ggx.is_smooth();
-    // Sampled above; a metal looks the same from behind.
-    let up = LocalDir::new(Vec3 { z: wo.z().abs(), ..wo.v() });
-    let rough = ggx.sample_visible(up, u.dir);
-    let m = LocalDir::new(Vec3::select(delta, vec3(R::ZERO, R::ZERO, R::ONE), rough.v()));
-    let wi_up = up.reflect(m);
-    let valid = up.above() & wi_up.above();
-    let F = F(up.dot(m).clamp(R::ZERO, R::ONE));
-    let G = R::select(delta, R::ONE, ggx.g2_over_g1(up, wi_up));
-    let density = R::select(delta, R::ONE, ggx.visible_over_cos(up, m) * R::of(0.25));
-    BsdfSample {
-        wi: LocalDir::new(Vec3 { z: wi_up.z().copysign(wo.z()), ..wi_up.v() }),
-        weight: (F * G).only_where(valid),
-        density: density.only_where(valid),
-        eta: R::ONE,
-        delta,
-        valid: valid & (delta | density.gt(R::ZERO)),
+#[allow(private_bounds, reason = "what reflects is the business of this crate")]
+impl<R: Real, F: FacetReflectance<R>> Bsdf<R> for MirrorFacets<R, F> {
+    #[allow(non_snake_case, reason = "names of the formula")]
+    #[inline(always)]
+    fn f_cos_pdf(&self, wo: LocalDir<R>, wi: LocalDir<R>) -> (Spectrum<R>, R) {
+        let lit = wo.same_side(wi) & !self.ggx.is_smooth();
+        let m = wo.half(wi);
+        let D = self.ggx.d(m); // [Heitz2014, eq. 85]
+        let (G, visible) = self.ggx.g2_over_4cos_and_density(wo, wi); // [Heitz2014, eq. 99]
+        let F = self.reflectance.at(wo.dot(m).abs().min(R::ONE));
+        let f_cos = F * (D * G * wi.abs_cos_theta());
+        (f_cos.only_where(lit), (D * visible).only_where(lit))
+    }
+
+    /// Reflects `wo` at a visible facet.
+    #[allow(non_snake_case, reason = "names of the formula")]
+    #[inline(always)]
+    fn sample(&self, wo: LocalDir<R>, u: Uniforms<R>) -> BsdfSample<R> {
+        let delta = self.ggx.is_smooth();
+        // Sampled above; a metal looks the same from behind.
+        let up = LocalDir::new(Vec3 { z: wo.z().abs(), ..wo.v() });
+        let rough = self.ggx.sample_visible(up, u.dir);
+        let m = LocalDir::new(Vec3::select(delta, vec3(R::ZERO, R::ZERO, R::ONE), rough.v()));
+        let wi_up = up.reflect(m);
+        let valid = up.above() & wi_up.above();
+        let F = self.reflectance.at(up.dot(m).clamp(R::ZERO, R::ONE));
+        let (G, visible) = self.ggx.g2_over_4cos_and_density(up, wi_up);
+        // G2 / G1 = (G2 / 4 cos cos) cos_i over the density, both over D.
+        let masking = R::select(delta, R::ONE, G * wi_up.z() / visible);
+        let density = R::select(delta, R::ONE, self.ggx.d(m) * visible);
+        BsdfSample {
+            wi: LocalDir::new(Vec3 { z: wi_up.z().copysign(wo.z()), ..wi_up.v() }),
+            weight: (F * masking).only_where(valid),
+            density: density.only_where(valid),
+            eta: R::ONE,
+            delta,
+            valid: valid & (delta | density.gt(R::ZERO)),
+        }
+    }
+
+    #[inline(always)]
+    fn has_smooth_lobe(&self) -> R::Mask {
+        !self.ggx.is_smooth()
+    }
+
+    #[inline(always)]
+    fn regularized(self) -> Self {
+        MirrorFacets { ggx: self.ggx.regularized(), ..self }
     }
 }

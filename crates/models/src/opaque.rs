@@ -21,7 +21,7 @@ pub(crate) trait Opaque: Copy {
 
 /// Mirrors `w` with the viewer `wo`, so that the viewer is above.
 #[inline(always)]
-fn raised<R: Real>(wo: LocalDir<R>, w: LocalDir<R>) -> LocalDir<R> {
+pub(crate) fn raised<R: Real>(wo: LocalDir<R>, w: LocalDir<R>) -> LocalDir<R> {
     LocalDir::new(Vec3 { z: R::select(wo.above(), w.z(), -w.z()), ..w.v() })
 }
 
@@ -42,11 +42,6 @@ impl<R: Real, M: Opaque<R = R>> Bsdf<R> for M {
     #[inline(always)]
     fn f(&self, wo: LocalDir<R>, wi: LocalDir<R>) -> Spectrum<R> {
         eval_both_sides(self, wo, wi).0
-    }
-
-    #[inline(always)]
-    fn pdf(&self, wo: LocalDir<R>, wi: LocalDir<R>) -> R {
-        eval_both_sides(self, wo, wi).1
     }
 
     #[inline(always)]

@@ -12,7 +12,7 @@ use std::sync::OnceLock;
 
 use sparrow_math::{LocalDir, Real, vec3};
 
-use crate::microfacet::albedo::{WIDEST, place};
+use crate::table::{Place, interpolate};
 
 #[cfg(test)]
 mod layer;
@@ -59,22 +59,15 @@ impl<R: Real> Fibres<R> {
     #[inline(always)]
     pub(crate) fn new(o: LocalDir<R>, roughness: R) -> Self {
         let sin = o.sin2_theta().sqrt().min(R::ONE);
-        let (last, smoothest) = (R::of((N - 1) as f64), R::of(SMOOTHEST));
-        let (col, x) = place((sin / (R::ONE + o.cos_theta())).min(R::ONE) * last, N);
-        let (row, y) =
-            place(((roughness - smoothest) / (R::ONE - smoothest)).clamp(R::ZERO, R::ONE) * last, N);
+        let smoothest = R::of(SMOOTHEST);
+        let at = [
+            Place::unit(N, ((roughness - smoothest) / (R::ONE - smoothest)).clamp(R::ZERO, R::ONE)),
+            Place::unit(N, (sin / (R::ONE + o.cos_theta())).min(R::ONE)),
+        ];
         let table = table();
         let mut values = [R::ZERO; 3];
         for (value, column) in values.iter_mut().zip(&table.0) {
-            let mut corners = [[0.0; WIDEST]; 4];
-            for lane in 0..R::WIDTH {
-                let at = row[lane] as usize * N + col[lane] as usize;
-                for (corner, step) in corners.iter_mut().zip([0, 1, N, N + 1]) {
-                    corner[lane] = column[at + step];
-                }
-            }
-            let [a, b, c, d] = &corners;
-            *value = R::load(a, 0).lerp(R::load(b, 0), x).lerp(R::load(c, 0).lerp(R::load(d, 0), x), y);
+            *value = interpolate(column, at);
         }
         let slanted = sin.gt(R::of(1e-9));
         let scale = R::ONE / R::select(slanted, sin, R::ONE);

@@ -11,6 +11,7 @@ use std::sync::OnceLock;
 use sparrow_math::{LocalDir, Real, vec3};
 
 use crate::ggx::Ggx;
+use crate::table::{Place, interpolate};
 
 const N_T: usize = 48;
 const N_ALPHA: usize = 32;
@@ -99,45 +100,15 @@ impl AlbedoTable {
     #[inline(always)]
     pub fn albedo<R: Real>(&self, mu: R, alpha: R) -> R {
         let alpha = alpha.max(R::of(1e-4));
-        let t = (mu * (R::ONE + alpha) / (mu + alpha)).min(R::ONE) * R::of((N_T - 1) as f64);
-        let (col, ft) = place(t, N_T);
-        let (row, fa) = place(alpha.sqrt() * R::of((N_ALPHA - 1) as f64), N_ALPHA);
-        let mut corners = [[0.0; WIDEST]; 4];
-        for lane in 0..R::WIDTH {
-            let at = row[lane] as usize * N_T + col[lane] as usize;
-            for (corner, step) in corners.iter_mut().zip([0, 1, N_T, N_T + 1]) {
-                corner[lane] = self.albedo[at + step];
-            }
-        }
-        let [a, b, c, d] = &corners;
-        R::load(a, 0).lerp(R::load(b, 0), ft).lerp(R::load(c, 0).lerp(R::load(d, 0), ft), fa)
+        let t = (mu * (R::ONE + alpha) / (mu + alpha)).min(R::ONE);
+        interpolate(&self.albedo, [Place::unit(N_ALPHA, alpha.sqrt()), Place::unit(N_T, t)])
     }
 
     /// `2 int E(mu, alpha) mu dmu`
     #[inline(always)]
     pub fn mean<R: Real>(&self, alpha: R) -> R {
-        let (row, fa) = place(alpha.max(R::of(1e-4)).sqrt() * R::of((N_MEAN - 1) as f64), N_MEAN);
-        let mut ends = [[0.0; WIDEST]; 2];
-        for lane in 0..R::WIDTH {
-            let at = row[lane] as usize;
-            ends[0][lane] = self.mean[at];
-            ends[1][lane] = self.mean[at + 1];
-        }
-        R::load(&ends[0], 0).lerp(R::load(&ends[1], 0), fa)
+        interpolate(&self.mean, [Place::unit(N_MEAN, alpha.max(R::of(1e-4)).sqrt())])
     }
-}
-
-/// Most lanes a number type may have.
-pub(crate) const WIDEST: usize = 16;
-
-/// The cell of a table with `n` nodes that holds `x`, one per lane, and how far into it `x` lies.
-#[inline(always)]
-pub(crate) fn place<R: Real>(x: R, n: usize) -> ([f32; WIDEST], R) {
-    const { assert!(R::WIDTH <= WIDEST, "the look-up has room for fewer lanes") };
-    let cell = (x - R::of(0.5)).round().clamp(R::ZERO, R::of((n - 2) as f64));
-    let mut cells = [0.0; WIDEST];
-    cell.store(&mut cells, 0);
-    (cells, (x - cell).clamp(R::ZERO, R::ONE))
 }
 
 #[cfg(test)]
@@ -177,16 +148,5 @@ mod tests {
             }
         }
         assert!(worst.0 < 1e-3, "{worst:?}");
-    }
-
-    #[test]
-    fn lanes_look_up_what_scalars_do() {
-        let mu = sparrow_math::Lanes::<8>([0.0, 0.01, 0.2, 0.4, 0.5, 0.77, 0.9, 1.0]);
-        let alpha = sparrow_math::Lanes::<8>([0.001, 0.4, 1.0, 0.2, 0.05, 0.6, 0.0, 0.33]);
-        let both = (ggx().albedo(mu, alpha), ggx().mean(alpha));
-        for i in 0..8 {
-            assert_eq!(both.0.0[i].to_bits(), ggx().albedo(mu.0[i], alpha.0[i]).to_bits());
-            assert_eq!(both.1.0[i].to_bits(), ggx().mean(alpha.0[i]).to_bits());
-        }
     }
 }

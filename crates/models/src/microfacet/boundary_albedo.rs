@@ -12,9 +12,9 @@ use std::sync::OnceLock;
 
 use sparrow_math::{LocalDir, Real, vec3};
 
-use super::albedo::{WIDEST, place};
 use super::{Facets, Masking, Ndf, NdfKind, Sampling};
 use crate::fresnel;
+use crate::table::{Place, interpolate};
 
 const N_T: usize = 24;
 const N_ALPHA: usize = 20;
@@ -63,12 +63,12 @@ pub fn table() -> &'static BoundaryTable {
     TABLE.get_or_init(BoundaryTable::build)
 }
 
-/// The place of an index on its axis, in nodes.
+/// The place of an index on its axis.
 #[inline(always)]
-fn eta_place<R: Real>(eta: R) -> R {
+fn eta_place<R: Real>(eta: R) -> Place<R> {
     let s = (eta - R::ONE) / (eta + R::ONE);
     let x = (s.abs() * R::of(1.0 / S_MAX)).sqrt().copysign(s);
-    (x + R::ONE) * R::of(0.5 * (N_ETA - 1) as f64)
+    Place::unit(N_ETA, (x + R::ONE) * R::of(0.5))
 }
 
 /// The index at a node of its axis.
@@ -109,39 +109,15 @@ impl BoundaryTable {
     #[inline(always)]
     pub fn lost<R: Real>(&self, mu: R, alpha: R, eta: R) -> R {
         let alpha = alpha.max(R::of(1e-3));
-        let t = (mu * (R::ONE + alpha) / (mu + alpha)).min(R::ONE) * R::of((N_T - 1) as f64);
-        let (col, x) = place(t, N_T);
-        let (row, y) = place(alpha.sqrt() * R::of((N_ALPHA - 1) as f64), N_ALPHA);
-        let (layer, z) = place(eta_place(eta), N_ETA);
-        let mut corners = [[0.0; WIDEST]; 8];
-        for lane in 0..R::WIDTH {
-            let at = (layer[lane] as usize * N_ALPHA + row[lane] as usize) * N_T + col[lane] as usize;
-            for (k, corner) in corners.iter_mut().enumerate() {
-                let step = (k & 1) + (k >> 1 & 1) * N_T + (k >> 2) * N_T * N_ALPHA;
-                corner[lane] = self.lost[at + step];
-            }
-        }
-        let [a, b, c, d, e, f, g, h] = &corners;
-        let near = R::load(a, 0).lerp(R::load(b, 0), x).lerp(R::load(c, 0).lerp(R::load(d, 0), x), y);
-        let far = R::load(e, 0).lerp(R::load(f, 0), x).lerp(R::load(g, 0).lerp(R::load(h, 0), x), y);
-        near.lerp(far, z)
+        let t = (mu * (R::ONE + alpha) / (mu + alpha)).min(R::ONE);
+        interpolate(&self.lost, [eta_place(eta), Place::unit(N_ALPHA, alpha.sqrt()), Place::unit(N_T, t)])
     }
 
     /// `2 int (1 - E) mu dmu`
     #[inline(always)]
     pub fn mean_lost<R: Real>(&self, alpha: R, eta: R) -> R {
-        let (row, y) = place(alpha.max(R::of(1e-3)).sqrt() * R::of((N_ALPHA - 1) as f64), N_ALPHA);
-        let (layer, z) = place(eta_place(eta), N_ETA);
-        let mut corners = [[0.0; WIDEST]; 4];
-        for lane in 0..R::WIDTH {
-            let (i, j) = (layer[lane] as usize, row[lane] as usize);
-            corners[0][lane] = self.mean[i][j];
-            corners[1][lane] = self.mean[i][j + 1];
-            corners[2][lane] = self.mean[i + 1][j];
-            corners[3][lane] = self.mean[i + 1][j + 1];
-        }
-        let [a, b, c, d] = &corners;
-        R::load(a, 0).lerp(R::load(b, 0), y).lerp(R::load(c, 0).lerp(R::load(d, 0), y), z)
+        let row = Place::unit(N_ALPHA, alpha.max(R::of(1e-3)).sqrt());
+        interpolate(self.mean.as_flattened(), [eta_place(eta), row])
     }
 }
 

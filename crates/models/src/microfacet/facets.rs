@@ -104,6 +104,13 @@ impl<R: Real> Facets<R> {
         Facets { ndf: self.ndf.regularized(), ..self }
     }
 
+    /// A relative three times as wide, from which directions are drawn that light takes after several facets.
+    #[inline(always)]
+    #[must_use]
+    pub(crate) fn for_further(self) -> Self {
+        Facets { ndf: self.ndf.widened(3.0), ..self }
+    }
+
     /// `G_2 / (4 cos theta_o cos theta_i)` for reflection; `o` and `i` above.
     #[inline(always)]
     pub fn g2_over_4cos(&self, o: LocalDir<R>, i: LocalDir<R>) -> R {
@@ -159,5 +166,10 @@ impl<R: Real> Facets<R> {
             Sampling::Full => m.z() / o_dot_m,
             Sampling::Bounded => R::of(4.0) * self.ndf.ggx().bounded_over_d(o),
         }
+    }
+    /// Density of the direction that a drawn normal mirrors `o` into. [Walter2007, eq. 14]
+    #[inline(always)]
+    pub(crate) fn mirrored_density(&self, o: LocalDir<R>, half: &Half<R>) -> R {
+        R::of(0.25) * self.ndf.d(half.m) * self.density_over_d(o, half.m, half.cos_d)
     }
 }

@@ -13,10 +13,10 @@ mod ndf;
 mod reflectance;
 mod smith;
 pub mod special;
-mod walk;
+pub(crate) mod walk;
 
 pub use beckmann::visible_slope;
 pub use facets::{Facets, Masking, Sampling};
 pub use ndf::{Ndf, NdfKind};
 pub use reflectance::{Reflectance, ReflectanceKind};
-pub use walk::{WalkEnd, walk, walk_value};
+pub use walk::{WalkEnd, walk};

@@ -101,6 +101,13 @@ impl<R: Real> Ndf<R> {
     pub fn mean_width(&self) -> R {
         (self.alpha_x * self.alpha_y).sqrt()
     }
+    /// Slope widths `times` as large, up to one.
+    #[inline(always)]
+    #[must_use]
+    pub(crate) fn widened(self, times: f64) -> Self {
+        let wider = |a: R| (a * R::of(times)).min(R::ONE).max(a);
+        Ndf { alpha_x: wider(self.alpha_x), alpha_y: wider(self.alpha_y), ..self }
+    }
     /// With narrow widths widened as pbrt-v4 regularises: doubled and brought into [0.1, 0.3] where below 0.3.
     #[inline(always)]
     #[must_use]

@@ -69,6 +69,17 @@ impl<R: Real> Reflectance<R> {
         }
     }
 
+    /// What it was made of: kind and the two spectra that this kind needs.
+    #[inline(always)]
+    pub(crate) fn parts(&self) -> (ReflectanceKind, Spectrum<R>, Spectrum<R>) {
+        (self.kind, self.a, self.b)
+    }
+    /// The opposite of [`parts`](Self::parts).
+    #[inline(always)]
+    pub(crate) fn from_parts(kind: ReflectanceKind, a: Spectrum<R>, b: Spectrum<R>) -> Self {
+        Reflectance { kind, a, b }
+    }
+
     /// `F(cos)`, `cos` in [0, 1].
     #[inline(always)]
     pub fn at(&self, cos: R) -> Spectrum<R> {

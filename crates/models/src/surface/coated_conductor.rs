@@ -33,8 +33,9 @@
 use sparrow_math::{LocalDir, Real, Vec3, vec3, warp};
 use sparrow_spectra::Spectrum;
 
-use crate::coat::{Coat, raised};
+use crate::coat::Coat;
 use crate::ggx::{ALPHA_SMOOTH, Ggx};
+use crate::opaque::raised;
 use crate::{About, Bsdf, BsdfSample, Model, ParamBlock, ParamInfo, Uniforms, fresnel};
 
 /// A dielectric coat over a conductor.
@@ -239,22 +240,6 @@ impl<R: Real> CoatedConductor<R> {
 }
 
 impl<R: Real> Bsdf<R> for CoatedConductor<R> {
-    #[inline(always)]
-    fn f(&self, wo: LocalDir<R>, wi: LocalDir<R>) -> Spectrum<R> {
-        let (f_cos, _) = self.f_cos_pdf(wo, wi);
-        f_cos / wi.abs_cos_theta().max(R::of(1e-30))
-    }
-
-    #[inline(always)]
-    fn pdf(&self, wo: LocalDir<R>, wi: LocalDir<R>) -> R {
-        self.f_cos_pdf(wo, wi).1
-    }
-
-    #[inline(always)]
-    fn f_cos(&self, wo: LocalDir<R>, wi: LocalDir<R>) -> Spectrum<R> {
-        self.f_cos_pdf(wo, wi).0
-    }
-
     #[inline(always)]
     fn f_cos_pdf(&self, wo: LocalDir<R>, wi: LocalDir<R>) -> (Spectrum<R>, R) {
         let lit = wo.same_side(wi);

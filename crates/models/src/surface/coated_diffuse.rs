@@ -27,7 +27,8 @@ use core::f64::consts::FRAC_1_PI;
 use sparrow_math::{LocalDir, Real, Vec3, warp};
 use sparrow_spectra::Spectrum;
 
-use crate::coat::{Coat, raised};
+use crate::coat::Coat;
+use crate::opaque::raised;
 use crate::{About, Bsdf, BsdfSample, Model, ParamBlock, ParamInfo, Uniforms};
 
 /// A dielectric coat over a Lambertian base.
@@ -112,22 +113,6 @@ impl<R: Real> CoatedDiffuse<R> {
 }
 
 impl<R: Real> Bsdf<R> for CoatedDiffuse<R> {
-    #[inline(always)]
-    fn f(&self, wo: LocalDir<R>, wi: LocalDir<R>) -> Spectrum<R> {
-        let (f_cos, _) = self.f_cos_pdf(wo, wi);
-        f_cos / wi.abs_cos_theta().max(R::of(1e-30))
-    }
-
-    #[inline(always)]
-    fn pdf(&self, wo: LocalDir<R>, wi: LocalDir<R>) -> R {
-        self.f_cos_pdf(wo, wi).1
-    }
-
-    #[inline(always)]
-    fn f_cos(&self, wo: LocalDir<R>, wi: LocalDir<R>) -> Spectrum<R> {
-        self.f_cos_pdf(wo, wi).0
-    }
-
     #[inline(always)]
     fn f_cos_pdf(&self, wo: LocalDir<R>, wi: LocalDir<R>) -> (Spectrum<R>, R) {
         let lit = wo.same_side(wi);

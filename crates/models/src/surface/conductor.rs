@@ -5,19 +5,31 @@
 //!
 //! Sources: [Walter2007] for the family, [Heitz2014] for masking, [Heitz2018] and [DupuyBenyoub2023] for sampling.
 
-use sparrow_math::{LocalDir, Real};
+use sparrow_math::Real;
 use sparrow_spectra::Spectrum;
 
-use crate::{
-    About, Bsdf, BsdfSample, Model, ParamBlock, ParamInfo, Uniforms, fresnel, ggx::Ggx, mirror_facets,
-};
+use crate::mirror_facets::{FacetReflectance, MirrorFacets};
+use crate::{About, Model, ParamBlock, ParamInfo, fresnel, ggx::Ggx};
 
 /// A rough or smooth conductor.
+pub(super) type Conductor<R> = MirrorFacets<R, Metal<R>>;
+
+/// The complex index of refraction of a metal.
 #[derive(Clone, Copy, Debug)]
-pub struct Conductor<R> {
-    ggx: Ggx<R>,
+pub struct Metal<R> {
     eta: Spectrum<R>,
     k: Spectrum<R>,
+}
+
+impl<R: Real> FacetReflectance<R> for Metal<R> {
+    #[inline(always)]
+    fn at(&self, cos: R) -> Spectrum<R> {
+        self.eta.zip(
+            self.k,
+            #[inline(always)]
+            |eta, k| fresnel::conductor(cos, eta, k),
+        )
+    }
 }
 
 impl<R: Real> Model<R> for Conductor<R> {
@@ -35,57 +47,7 @@ impl<R: Real> Model<R> for Conductor<R> {
 
     #[inline(always)]
     fn new(p: &ParamBlock<R>) -> Self {
-        Conductor { ggx: Ggx::new(p.reals[0], p.reals[1]), eta: p.spectra[0], k: p.spectra[1] }
-    }
-}
-
-impl<R: Real> Conductor<R> {
-    /// `F(wo.m)`
-    #[inline(always)]
-    fn fresnel(&self, cos_d: R) -> Spectrum<R> {
-        self.eta.zip(
-            self.k,
-            #[inline(always)]
-            |eta, k| fresnel::conductor(cos_d, eta, k),
-        )
-    }
-}
-
-impl<R: Real> Bsdf<R> for Conductor<R> {
-    #[inline(always)]
-    fn f(&self, wo: LocalDir<R>, wi: LocalDir<R>) -> Spectrum<R> {
-        mirror_facets::f(
-            &self.ggx,
-            wo,
-            wi,
-            #[inline(always)]
-            |cos| self.fresnel(cos),
-        )
-    }
-
-    #[inline(always)]
-    fn pdf(&self, wo: LocalDir<R>, wi: LocalDir<R>) -> R {
-        mirror_facets::pdf(&self.ggx, wo, wi)
-    }
-
-    #[inline(always)]
-    fn sample(&self, wo: LocalDir<R>, u: Uniforms<R>) -> BsdfSample<R> {
-        mirror_facets::sample(
-            &self.ggx,
-            wo,
-            u,
-            #[inline(always)]
-            |cos| self.fresnel(cos),
-        )
-    }
-
-    #[inline(always)]
-    fn has_smooth_lobe(&self) -> R::Mask {
-        !self.ggx.is_smooth()
-    }
-
-    #[inline(always)]
-    fn regularized(self) -> Self {
-        Conductor { ggx: self.ggx.regularized(), ..self }
+        let reflectance = Metal { eta: p.spectra[0], k: p.spectra[1] };
+        MirrorFacets { ggx: Ggx::new(p.reals[0], p.reals[1]), reflectance }
     }
 }

@@ -10,6 +10,7 @@
 use sparrow_math::{LocalDir, Real, Vec3, vec3};
 use sparrow_spectra::Spectrum;
 
+use crate::opaque::raised;
 use crate::{About, Bsdf, BsdfSample, Model, ParamBlock, ParamInfo, Uniforms, fresnel, ggx::Ggx};
 
 /// A rough or smooth boundary between two dielectrics.
@@ -81,39 +82,25 @@ impl<R: Real> Dielectric<R> {
     }
 }
 
-/// Mirrors both directions so that the viewer is above.
-#[inline(always)]
-fn raised<R: Real>(wo: LocalDir<R>, w: LocalDir<R>) -> LocalDir<R> {
-    LocalDir::new(Vec3 { z: R::select(wo.above(), w.z(), -w.z()), ..w.v() })
-}
-
 impl<R: Real> Bsdf<R> for Dielectric<R> {
     #[allow(non_snake_case, reason = "names of the formula")]
     #[inline(always)]
-    fn f(&self, wo: LocalDir<R>, wi: LocalDir<R>) -> Spectrum<R> {
+    fn f_cos_pdf(&self, wo: LocalDir<R>, wi: LocalDir<R>) -> (Spectrum<R>, R) {
         let eta = self.eta_from(wo);
         let (o, i) = (raised(wo, wo), raised(wo, wi));
         let facet = self.facet(o, i, eta);
+        let lit = facet.lit & !self.is_delta();
         let D = self.ggx.d(facet.m);
-        let G = self.ggx.g2_over_4cos(o, i);
-        let F = facet.fresnel;
-        let f_r = F * D * G; // [Walter2007, eq. 20]
-        let f_t = (R::ONE - F) * D * R::of(4.0) * G * facet.i_dot_m.abs() * facet.o_dot_m.abs()
-            / (eta * facet.i_dot_m + facet.o_dot_m).sqr(); // [Walter2007, eq. 21], over eta^2 for radiance
-        let f = R::select(facet.reflects, f_r, f_t);
-        Spectrum::splat(f).only_where(facet.lit & !self.is_delta())
-    }
-
-    #[inline(always)]
-    fn pdf(&self, wo: LocalDir<R>, wi: LocalDir<R>) -> R {
-        let eta = self.eta_from(wo);
-        let (o, i) = (raised(wo, wo), raised(wo, wi));
-        let facet = self.facet(o, i, eta);
-        let visible = self.ggx.visible_over_cos(o, facet.m);
-        let p_r = facet.fresnel * visible * R::of(0.25); // [Walter2007, eq. 14]
-        let p_t = (R::ONE - facet.fresnel) * visible * facet.o_dot_m * facet.i_dot_m.abs() * eta.sqr()
-            / (eta * facet.i_dot_m + facet.o_dot_m).sqr(); // [Walter2007, eq. 17]
-        R::select(facet.reflects, p_r, p_t).only_where(facet.lit & !self.is_delta())
+        let (G, visible) = self.ggx.g2_over_4cos_and_density(o, i);
+        let F = R::select(facet.reflects, facet.fresnel, R::ONE - facet.fresnel);
+        // Over what reflection has, [Walter2007, eq. 20, 14], refraction has 4 |o.m| |i.m| / (eta i.m + o.m)^2 in the value, over
+        // eta^2 for radiance, and eta^2 times that in the density. [Walter2007, eq. 21, 17]
+        let bend = R::of(4.0) * facet.o_dot_m.abs() * facet.i_dot_m.abs()
+            / (eta * facet.i_dot_m + facet.o_dot_m).sqr();
+        let bend = R::select(facet.reflects, R::ONE, bend);
+        let f = F * D * G * bend;
+        let pdf = F * D * visible * bend * R::select(facet.reflects, R::ONE, eta.sqr());
+        (Spectrum::splat(f * i.abs_cos_theta()).only_where(lit), pdf.only_where(lit))
     }
 
     #[inline(always)]

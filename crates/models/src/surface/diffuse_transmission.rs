@@ -2,8 +2,6 @@
 //!
 //! Lossless where reflectance and transmittance sum to one; where they sum to more, it makes light, as the file asked.
 
-use core::f64::consts::FRAC_1_PI;
-
 use sparrow_math::{LocalDir, Mask, Real, Vec3, warp};
 use sparrow_spectra::Spectrum;
 
@@ -42,14 +40,12 @@ impl<R: Real> DiffuseTransmission<R> {
 
 impl<R: Real> Bsdf<R> for DiffuseTransmission<R> {
     #[inline(always)]
-    fn f(&self, wo: LocalDir<R>, wi: LocalDir<R>) -> Spectrum<R> {
-        Spectrum::select(wo.same_side(wi), self.reflectance, self.transmittance) * R::of(FRAC_1_PI)
-    }
-
-    #[inline(always)]
-    fn pdf(&self, wo: LocalDir<R>, wi: LocalDir<R>) -> R {
+    fn f_cos_pdf(&self, wo: LocalDir<R>, wi: LocalDir<R>) -> (Spectrum<R>, R) {
+        let reflects = wo.same_side(wi);
         let p = self.reflect_probability();
-        R::select(wo.same_side(wi), p, R::ONE - p) * warp::cosine_hemisphere_pdf(wi.abs_cos_theta())
+        let diffuse = warp::cosine_hemisphere_pdf(wi.abs_cos_theta());
+        let albedo = Spectrum::select(reflects, self.reflectance, self.transmittance);
+        (albedo * diffuse, R::select(reflects, p, R::ONE - p) * diffuse)
     }
 
     #[inline(always)]

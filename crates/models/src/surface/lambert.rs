@@ -1,7 +1,5 @@
 //! Lambert's diffuse reflection: the same radiance in every direction. [Lambert1760]
 
-use core::f64::consts::FRAC_1_PI;
-
 use sparrow_math::{LocalDir, Mask, Real, warp};
 use sparrow_spectra::Spectrum;
 
@@ -26,13 +24,9 @@ impl<R: Real> Model<R> for Lambert<R> {
 
 impl<R: Real> Bsdf<R> for Lambert<R> {
     #[inline(always)]
-    fn f(&self, wo: LocalDir<R>, wi: LocalDir<R>) -> Spectrum<R> {
-        (self.reflectance * R::of(FRAC_1_PI)).only_where(wo.same_side(wi))
-    }
-
-    #[inline(always)]
-    fn pdf(&self, wo: LocalDir<R>, wi: LocalDir<R>) -> R {
-        warp::cosine_hemisphere_pdf(wi.abs_cos_theta()).only_where(wo.same_side(wi))
+    fn f_cos_pdf(&self, wo: LocalDir<R>, wi: LocalDir<R>) -> (Spectrum<R>, R) {
+        let pdf = warp::cosine_hemisphere_pdf(wi.abs_cos_theta()).only_where(wo.same_side(wi));
+        (self.reflectance * pdf, pdf)
     }
 
     #[inline(always)]

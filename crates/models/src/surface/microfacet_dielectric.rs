@@ -6,8 +6,10 @@
 //! which the model differs from [`dielectric`](super::dielectric). Where both sides have the same index, light goes
 //! straight on.
 //! Light that meets a second facet is lost (`single`), or given back: by a factor `1 / E(o)` on both lobes [Turquin2019], which
-//! is not reciprocal, or by diffuse lobes on either side, which is [KullaConty2017]. Both are known for `ndf "ggx"` with
-//! `masking "smith"` and indices from 1/3 to 3; elsewhere `energy` has no effect, or that of the nearest index.
+//! is not reciprocal; by diffuse lobes on either side, which is [KullaConty2017]; or exactly, by a random walk from facet
+//! to facet [Heitz2016], whose value is noisy: right in the mean over directions, and drawn half like the diffuse lobes, half from
+//! wider facets. All are known for `ndf "ggx"` with `masking "smith"`, the first two for indices from 1/3 to 3; elsewhere `energy` has no effect, or
+//! that of the nearest index.
 
 use core::f64::consts::FRAC_1_PI;
 
@@ -15,7 +17,9 @@ use sparrow_math::{LocalDir, Mask, Real, Vec3, vec3, warp};
 use sparrow_spectra::Spectrum;
 
 use crate::microfacet::boundary_albedo::{self, BoundaryTable};
+use crate::microfacet::walk::boundary;
 use crate::microfacet::{Facets, Masking, Ndf, NdfKind, Sampling};
+use crate::opaque::raised;
 use crate::{About, Bsdf, BsdfSample, Lack, Model, ParamBlock, ParamInfo, Uniforms, fresnel};
 
 /// What is done about light that meets several facets.
@@ -24,6 +28,7 @@ enum Energy {
     Single,
     Turquin(&'static BoundaryTable),
     KullaConty(&'static BoundaryTable),
+    Walk(&'static BoundaryTable),
 }
 
 /// Reflecting and refracting facets.
@@ -67,8 +72,9 @@ impl<R: Real> Model<R> for MicrofacetDielectric<R> {
         ParamInfo::choice("masking", &["smith", "separable", "none"]).doc("How facets hide each other."),
         ParamInfo::choice("sampling", &["visible", "disk", "full"])
             .doc("How normals are drawn; the disk is for ggx, beckmann then draws what is visible."),
-        ParamInfo::choice("energy", &["single", "turquin", "kulla_conty"])
-            .doc("Light that meets several facets: lost, or given back (ggx with smith masking)."),
+        ParamInfo::choice("energy", &["single", "turquin", "kulla_conty", "walk"]).doc(
+            "Light that meets several facets: lost, or given back by albedo or by a walk (ggx with smith masking).",
+        ),
     ];
 
     #[inline(always)]
@@ -85,6 +91,7 @@ impl<R: Real> Model<R> for MicrofacetDielectric<R> {
             energy: match p.choices[3] {
                 1 if compensable => Energy::Turquin(boundary_albedo::table()),
                 2 if compensable => Energy::KullaConty(boundary_albedo::table()),
+                3 if compensable => Energy::Walk(boundary_albedo::table()),
                 _ => Energy::Single,
             },
             facets: Facets::new(
@@ -96,10 +103,15 @@ impl<R: Real> Model<R> for MicrofacetDielectric<R> {
     }
 }
 
-/// Mirrors both directions so that the viewer is above.
-#[inline(always)]
-fn raised<R: Real>(wo: LocalDir<R>, w: LocalDir<R>) -> LocalDir<R> {
-    LocalDir::new(Vec3 { z: R::select(wo.above(), w.z(), -w.z()), ..w.v() })
+/// What a sample starts from.
+struct Drawn<R: Real> {
+    /// A facet's normal.
+    m: LocalDir<R>,
+    /// The uniform number that decides whether the facet reflects.
+    lobe: R,
+    /// A direction of the diffuse lobes, taken instead of the facet's.
+    diffuse: LocalDir<R>,
+    is_diffuse: R::Mask,
 }
 
 impl<R: Real> MicrofacetDielectric<R> {
@@ -151,31 +163,61 @@ impl<R: Real> MicrofacetDielectric<R> {
     #[inline(always)]
     fn value_and_density(&self, o: LocalDir<R>, i: LocalDir<R>, m: LocalDir<R>, eta: R) -> (R, R) {
         let (f, pdf) = self.single(o, i, m, eta);
-        match self.energy {
-            Energy::Single => (f, pdf),
-            Energy::Turquin(table) => (f / (R::ONE - self.lost(table, o.cos_theta(), eta)), pdf),
-            Energy::KullaConty(table) => {
-                let lost = self.lost(table, o.cos_theta(), eta);
-                let (diffuse, through) = self.diffuse(table, i, eta);
-                let side = R::select(i.above(), R::ONE - through, through);
-                let p = side * warp::cosine_hemisphere_pdf(i.abs_cos_theta());
-                let lit = o.above() & i.abs_cos_theta().gt(R::ZERO);
-                (f + (lost * diffuse).only_where(lit), (R::ONE - lost) * pdf + (lost * p).only_where(lit))
-            }
-        }
-    }
-    /// The direction of the diffuse lobes that a sample takes instead of `i`, and where it does.
-    #[inline(always)]
-    fn instead(&self, o: LocalDir<R>, u: Uniforms<R>, eta: R) -> (LocalDir<R>, R::Mask, R) {
-        let Energy::KullaConty(table) = self.energy else {
-            return (o, R::Mask::of(false), u.lobe);
+        let (Energy::Turquin(table) | Energy::KullaConty(table) | Energy::Walk(table)) = self.energy else {
+            return (f, pdf);
         };
         let lost = self.lost(table, o.cos_theta(), eta);
+        if matches!(self.energy, Energy::Turquin(_)) {
+            return (f / (R::ONE - lost), pdf);
+        }
+        let (diffuse, through) = self.diffuse(table, i, eta);
+        let side = R::select(i.above(), R::ONE - through, through);
+        let diffuse_pdf = side * warp::cosine_hemisphere_pdf(i.abs_cos_theta());
+        let (further, further_pdf) = match self.energy {
+            Energy::Walk(_) => {
+                let (_, wide) = self.wide().single(o, i, m, eta);
+                let further = boundary::further(&self.facets.ndf().ggx(), eta, o, i);
+                (further, R::of(0.5) * (diffuse_pdf + wide))
+            }
+            Energy::KullaConty(_) | Energy::Turquin(_) | Energy::Single => (lost * diffuse, diffuse_pdf),
+        };
+        let lit = o.above() & i.abs_cos_theta().gt(R::ZERO);
+        (f + further.only_where(lit), (R::ONE - lost) * pdf + (lost * further_pdf).only_where(lit))
+    }
+    /// Chooses between facets, wider facets and diffuse lobes, and draws.
+    #[inline(always)]
+    fn draw(&self, o: LocalDir<R>, u: Uniforms<R>, eta: R) -> Drawn<R> {
+        let m = self.facets.sample(o, u.dir);
+        let (table, wide, share) = match self.energy {
+            Energy::Single | Energy::Turquin(_) => {
+                return Drawn { m, lobe: u.lobe, diffuse: m, is_diffuse: R::Mask::of(false) };
+            }
+            Energy::KullaConty(table) => (table, m, R::ONE),
+            Energy::Walk(table) => (table, self.wide().facets.sample(o, u.dir), R::of(0.5)),
+        };
+        let lost = self.lost(table, o.cos_theta(), eta);
+        let to_diffuse = lost * share;
         let through = self.diffuse(table, o, eta).1;
         let up = warp::cosine_hemisphere(u.dir);
-        let z = R::select(u.lobe.lt(lost * through), -up.z, up.z);
-        let left = ((u.lobe - lost) / (R::ONE - lost)).clamp(R::ZERO, R::ONE);
-        (LocalDir::new(Vec3 { z, ..up }), u.lobe.lt(lost), left)
+        let z = R::select(u.lobe.lt(to_diffuse * through), -up.z, up.z);
+        // The rest of the number decides between reflection and refraction.
+        let is_wide = u.lobe.lt(lost);
+        let lobe = R::select(
+            is_wide,
+            (u.lobe - to_diffuse) / (lost - to_diffuse).max(R::of(1e-9)),
+            (u.lobe - lost) / (R::ONE - lost),
+        );
+        Drawn {
+            m: LocalDir::new(Vec3::select(is_wide, wide.v(), m.v())),
+            lobe: lobe.clamp(R::ZERO, R::ONE),
+            diffuse: LocalDir::new(Vec3 { z, ..up }),
+            is_diffuse: u.lobe.lt(to_diffuse),
+        }
+    }
+    /// The boundary that directions of further light are drawn from.
+    #[inline(always)]
+    fn wide(self) -> Self {
+        MicrofacetDielectric { facets: self.facets.for_further(), ..self }
     }
     /// `f` and the density of `i`, for `o` above and the facet normal `m` between them; one facet only.
     #[allow(non_snake_case, reason = "names of the formula")]
@@ -201,19 +243,6 @@ impl<R: Real> MicrofacetDielectric<R> {
 
 impl<R: Real> Bsdf<R> for MicrofacetDielectric<R> {
     #[inline(always)]
-    fn f(&self, wo: LocalDir<R>, wi: LocalDir<R>) -> Spectrum<R> {
-        let (f_cos, _) = self.f_cos_pdf(wo, wi);
-        let cos = wi.abs_cos_theta();
-        let some = cos.gt(R::ZERO);
-        (f_cos / R::select(some, cos, R::ONE)).only_where(some)
-    }
-
-    #[inline(always)]
-    fn pdf(&self, wo: LocalDir<R>, wi: LocalDir<R>) -> R {
-        self.f_cos_pdf(wo, wi).1
-    }
-
-    #[inline(always)]
     fn f_cos_pdf(&self, wo: LocalDir<R>, wi: LocalDir<R>) -> (Spectrum<R>, R) {
         let eta = self.eta_from(wo);
         let (o, i) = (raised(wo, wo), raised(wo, wi));
@@ -227,20 +256,16 @@ impl<R: Real> Bsdf<R> for MicrofacetDielectric<R> {
         let eta = self.eta_from(wo);
         let o = raised(wo, wo);
         let delta = self.is_absent();
-        let m = LocalDir::new(Vec3::select(
-            delta,
-            vec3(R::ZERO, R::ZERO, R::ONE),
-            self.facets.sample(o, u.dir).v(),
-        ));
+        let drawn = self.draw(o, u, eta);
+        let m = LocalDir::new(Vec3::select(delta, vec3(R::ZERO, R::ZERO, R::ONE), drawn.m.v()));
         let cos_o = o.dot(m).clamp(R::ZERO, R::ONE);
         let (reflectance, cos_t) = fresnel::dielectric(cos_o, eta);
-        let (diffuse_i, diffuse, lobe) = self.instead(o, u, eta);
-        let diffuse = diffuse & !delta;
-        let reflects = lobe.lt(reflectance) & !delta;
+        let diffuse = drawn.is_diffuse & !delta;
+        let reflects = drawn.lobe.lt(reflectance) & !delta;
         let refracted = m.v() * (cos_o / eta - cos_t) - o.v() * (R::ONE / eta);
         let bent = Vec3::select(delta, -o.v(), refracted.normalized());
         let i = Vec3::select(reflects, o.reflect(m).v(), bent);
-        let i = LocalDir::new(Vec3::select(diffuse, diffuse_i.v(), i));
+        let i = LocalDir::new(Vec3::select(diffuse, drawn.diffuse.v(), i));
         let reflects = (reflects & !diffuse) | (diffuse & i.above());
         let m = LocalDir::new(Vec3::select(diffuse, Self::normal(o, i, eta).v(), m.v()));
 

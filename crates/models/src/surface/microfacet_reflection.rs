@@ -3,9 +3,10 @@
 //! The same from both sides of the surface. [CookTorrance1982] as [Walter2007, eq. 20] writes it; the paper of 1982
 //! prints pi where 4 is right.
 //! Light that meets a second facet is lost (`single`), or given back: by a factor [Turquin2019, eq. 16], which is not
-//! reciprocal, or by a diffuse lobe [KullaConty2017]. Compensation is known for `ndf "ggx"` with `masking "smith"`;
-//! elsewhere `energy` has no effect. With two widths the albedo is that of their geometric mean. Its truth is
-//! the random walk [`crate::microfacet::walk`].
+//! reciprocal; by a diffuse lobe [KullaConty2017]; or exactly, by a random walk from facet to facet [Heitz2016], whose
+//! value is noisy: right in the mean over directions, and drawn half like the diffuse lobe, half from wider facets. All are known for `ndf "ggx"` with
+//! `masking "smith"`; elsewhere `energy` has no effect. With two widths the albedo of the first two is that of their
+//! geometric mean.
 //!
 //! Errata: the slides of [KullaConty2017] print the mean reflectance of the lobe to the first power; the sum over bounces
 //! needs its square.
@@ -16,6 +17,7 @@ use sparrow_math::{LocalDir, Real, Vec3, warp};
 use sparrow_spectra::Spectrum;
 
 use crate::microfacet::albedo::{self, AlbedoTable};
+use crate::microfacet::walk::mirrors;
 use crate::microfacet::{Facets, Masking, Ndf, NdfKind, Reflectance, ReflectanceKind, Sampling};
 use crate::opaque::{Half, Opaque};
 use crate::{About, Lack, Model, ParamBlock, ParamInfo, Uniforms};
@@ -26,6 +28,7 @@ enum Energy {
     Single,
     Turquin(&'static AlbedoTable),
     KullaConty(&'static AlbedoTable),
+    Walk(&'static AlbedoTable),
 }
 
 /// Reflecting facets.
@@ -39,7 +42,7 @@ pub struct MicrofacetReflection<R> {
 impl<R: Real> Model<R> for MicrofacetReflection<R> {
     const ABOUT: About = About::new(
         "reflecting facets: distribution, masking, Fresnel term, sampling and energy by choice",
-        "CookTorrance1982, Walter2007, Heitz2014, Ribardiere2017, KullaConty2017, Turquin2019",
+        "CookTorrance1982, Walter2007, Heitz2014, Ribardiere2017, Heitz2016, KullaConty2017, Turquin2019",
     )
     .anisotropic()
     .lacks(&[
@@ -63,8 +66,9 @@ impl<R: Real> Model<R> for MicrofacetReflection<R> {
         ParamInfo::choice("fresnel", ReflectanceKind::NAMES).doc("What one facet reflects."),
         ParamInfo::choice("sampling", Sampling::NAMES)
             .doc("How normals are drawn; what a distribution cannot do, it does by the nearest way it can."),
-        ParamInfo::choice("energy", &["single", "turquin", "kulla_conty"])
-            .doc("Light that meets several facets: lost, or given back (ggx with smith masking)."),
+        ParamInfo::choice("energy", &["single", "turquin", "kulla_conty", "walk"]).doc(
+            "Light that meets several facets: lost, or given back by albedo or by a walk (ggx with smith masking).",
+        ),
         ParamInfo::real("alpha_x")
             .default(0.2)
             .range(1e-3, 1.0)
@@ -108,6 +112,7 @@ impl<R: Real> Model<R> for MicrofacetReflection<R> {
             energy: match p.choices[4] {
                 1 if compensable => Energy::Turquin(albedo::ggx()),
                 2 if compensable => Energy::KullaConty(albedo::ggx()),
+                3 if compensable => Energy::Walk(albedo::ggx()),
                 _ => Energy::Single,
             },
         }
@@ -129,7 +134,8 @@ impl<R: Real> MicrofacetReflection<R> {
     /// The diffuse lobe `F_ms (1 - E(o)) (1 - E(i)) / (pi (1 - E_avg))`, with
     /// `F_ms = F_avg^2 E_avg / (1 - F_avg (1 - E_avg))`. [KullaConty2017]
     #[inline(always)]
-    fn kulla_conty(&self, table: &AlbedoTable, lost_o: R, i: LocalDir<R>) -> Spectrum<R> {
+    fn kulla_conty(&self, table: &AlbedoTable, o: LocalDir<R>, i: LocalDir<R>) -> Spectrum<R> {
+        let lost_o = R::ONE - self.kept(table, o.cos_theta());
         let lost_i = R::ONE - self.kept(table, i.cos_theta());
         let kept = table.mean(self.facets.ndf().mean_width());
         let lost = (R::ONE - kept).max(R::of(1e-6));
@@ -145,7 +151,6 @@ impl<R: Real> MicrofacetReflection<R> {
 impl<R: Real> Opaque for MicrofacetReflection<R> {
     type R = R;
 
-    // Not inlined, like `draw`: with all its choices in every number type it would take minutes to build.
     #[allow(non_snake_case, reason = "names of the formula")]
     #[inline(always)]
     fn eval(&self, o: LocalDir<R>, i: LocalDir<R>) -> (Spectrum<R>, R) {
@@ -154,29 +159,37 @@ impl<R: Real> Opaque for MicrofacetReflection<R> {
         let G = self.facets.g2_over_4cos(o, i);
         let F = self.reflectance.at(half.cos_d);
         let f = F * (D * G);
-        let pdf = R::of(0.25) * D * self.facets.density_over_d(o, half.m, half.cos_d);
-        match self.energy {
-            Energy::Single => (f, pdf),
-            Energy::Turquin(table) => (f * self.turquin(table, o), pdf),
-            Energy::KullaConty(table) => {
-                let lost = R::ONE - self.kept(table, o.cos_theta());
-                let diffuse = warp::cosine_hemisphere_pdf(i.cos_theta());
-                (f + self.kulla_conty(table, lost, i), (R::ONE - lost) * pdf + lost * diffuse)
+        let pdf = self.facets.mirrored_density(o, &half);
+        let diffuse = warp::cosine_hemisphere_pdf(i.cos_theta());
+        let (table, further, further_pdf) = match self.energy {
+            Energy::Single => return (f, pdf),
+            Energy::Turquin(table) => return (f * self.turquin(table, o), pdf),
+            Energy::KullaConty(table) => (table, self.kulla_conty(table, o, i), diffuse),
+            Energy::Walk(table) => {
+                let wide = self.facets.for_further().mirrored_density(o, &half);
+                let further = mirrors::further(&self.facets.ndf().ggx(), &self.reflectance, o, i);
+                (table, further, R::of(0.5) * (diffuse + wide))
             }
-        }
+        };
+        // What is lost in single scattering is the share of the light that meets several facets.
+        let lost = R::ONE - self.kept(table, o.cos_theta());
+        (f + further, pdf.lerp(further_pdf, lost))
     }
 
     #[inline(always)]
     fn draw(&self, o: LocalDir<R>, u: Uniforms<R>) -> LocalDir<R> {
         let mirrored = o.reflect(self.facets.sample(o, u.dir));
-        match self.energy {
-            Energy::Single | Energy::Turquin(_) => mirrored,
-            Energy::KullaConty(table) => {
-                // What is lost in single scattering is the share of the diffuse lobe.
-                let lost = R::ONE - self.kept(table, o.cos_theta());
-                let diffuse = warp::cosine_hemisphere(u.dir);
-                LocalDir::new(Vec3::select(u.lobe.lt(lost), diffuse, mirrored.v()))
-            }
-        }
+        let (table, diffuse) = match self.energy {
+            Energy::Single | Energy::Turquin(_) => return mirrored,
+            Energy::KullaConty(table) => (table, R::ONE),
+            Energy::Walk(table) => (table, R::of(0.5)),
+        };
+        let lost = R::ONE - self.kept(table, o.cos_theta());
+        let further = match self.energy {
+            Energy::Walk(_) => o.reflect(self.facets.for_further().sample(o, u.dir)).v(),
+            Energy::Single | Energy::Turquin(_) | Energy::KullaConty(_) => mirrored.v(),
+        };
+        let further = Vec3::select(u.lobe.lt(lost * diffuse), warp::cosine_hemisphere(u.dir), further);
+        LocalDir::new(Vec3::select(u.lobe.lt(lost), further, mirrored.v()))
     }
 }

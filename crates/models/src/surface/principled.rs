@@ -24,11 +24,12 @@ use sparrow_spectra::Spectrum;
 
 use super::dielectric::Dielectric;
 use super::eon::Eon;
-use crate::coat::{Coat, raised};
+use crate::coat::Coat;
 use crate::fibres::{Fibres, SMOOTHEST};
 use crate::ggx::Ggx;
 use crate::microfacet::albedo;
 use crate::opaque::Opaque;
+use crate::opaque::raised;
 use crate::{About, Bsdf, BsdfSample, Lack, Model, ParamBlock, ParamInfo, Uniforms, fresnel};
 
 /// Fuzz over a coat over a base.
@@ -232,22 +233,6 @@ impl<R: Real> Principled<R> {
 
 impl<R: Real> Bsdf<R> for Principled<R> {
     #[inline(always)]
-    fn f(&self, wo: LocalDir<R>, wi: LocalDir<R>) -> Spectrum<R> {
-        let (f_cos, _) = self.f_cos_pdf(wo, wi);
-        f_cos / wi.abs_cos_theta().max(R::of(1e-30))
-    }
-
-    #[inline(always)]
-    fn pdf(&self, wo: LocalDir<R>, wi: LocalDir<R>) -> R {
-        self.f_cos_pdf(wo, wi).1
-    }
-
-    #[inline(always)]
-    fn f_cos(&self, wo: LocalDir<R>, wi: LocalDir<R>) -> Spectrum<R> {
-        self.f_cos_pdf(wo, wi).0
-    }
-
-    #[inline(always)]
     fn f_cos_pdf(&self, wo: LocalDir<R>, wi: LocalDir<R>) -> (Spectrum<R>, R) {
         let outside = wo.above();
         let (o, i) = (raised(wo, wo), raised(wo, wi));
@@ -258,9 +243,9 @@ impl<R: Real> Bsdf<R> for Principled<R> {
         let tint = Spectrum::select(wo.same_side(wi), Spectrum::ONE, self.transmission_color);
         let seen = Spectrum::select(outside, self.coat_tint, Spectrum::ONE);
         let weight = view.glass * (R::ONE - self.metalness) * self.transmission;
-        let glass = self.glass.f(wo, wi) * tint * seen * weight;
-        let f = f.only_where(reflects) + glass;
-        (f * wi.abs_cos_theta(), pdf.only_where(reflects) + view.shares[3] * self.glass.pdf(wo, wi))
+        let (glass, glass_pdf) = self.glass.f_cos_pdf(wo, wi);
+        let f_cos = (f * wi.abs_cos_theta()).only_where(reflects) + glass * tint * seen * weight;
+        (f_cos, pdf.only_where(reflects) + view.shares[3] * glass_pdf)
     }
 
     #[inline(always)]

@@ -30,13 +30,8 @@ impl<R: Real> Model<R> for ThinDielectric<R> {
 
 impl<R: Real> Bsdf<R> for ThinDielectric<R> {
     #[inline(always)]
-    fn f(&self, _wo: LocalDir<R>, _wi: LocalDir<R>) -> Spectrum<R> {
-        Spectrum::ZERO
-    }
-
-    #[inline(always)]
-    fn pdf(&self, _wo: LocalDir<R>, _wi: LocalDir<R>) -> R {
-        R::ZERO
+    fn f_cos_pdf(&self, _wo: LocalDir<R>, _wi: LocalDir<R>) -> (Spectrum<R>, R) {
+        (Spectrum::ZERO, R::ZERO)
     }
 
     #[inline(always)]

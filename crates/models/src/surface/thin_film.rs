@@ -6,17 +6,20 @@
 //! transmitted light is lost.
 //! Limits: single scattering; the film is as thick everywhere on a facet, and light stays coherent within it.
 
-use sparrow_math::{LocalDir, Real};
+use sparrow_math::Real;
 use sparrow_spectra::Spectrum;
 
 use crate::film::{Medium, reflectance};
 use crate::ggx::Ggx;
-use crate::{About, Bsdf, BsdfSample, Model, ParamBlock, ParamInfo, Uniforms, mirror_facets};
+use crate::mirror_facets::{FacetReflectance, MirrorFacets};
+use crate::{About, Model, ParamBlock, ParamInfo};
 
 /// Rough or smooth facets under a film.
+pub(super) type ThinFilm<R> = MirrorFacets<R, Film<R>>;
+
+/// A film and the base under it.
 #[derive(Clone, Copy, Debug)]
-pub struct ThinFilm<R> {
-    ggx: Ggx<R>,
+pub struct Film<R> {
     /// Thickness over wavelength.
     waves: Spectrum<R>,
     film: [Spectrum<R>; 2],
@@ -48,22 +51,21 @@ impl<R: Real> Model<R> for ThinFilm<R> {
     fn new(p: &ParamBlock<R>) -> Self {
         let [film_eta, film_k, eta, k, ..] = p.spectra;
         let thickness = p.reals[2];
-        ThinFilm {
-            ggx: Ggx::new(p.reals[0], p.reals[1]),
+        let reflectance = Film {
             waves: p.lambda.map(
                 #[inline(always)]
                 |nm| thickness / nm,
             ),
             film: [film_eta, film_k],
             base: [eta, k],
-        }
+        };
+        MirrorFacets { ggx: Ggx::new(p.reals[0], p.reals[1]), reflectance }
     }
 }
 
-impl<R: Real> ThinFilm<R> {
-    /// Reflectance of a facet.
+impl<R: Real> FacetReflectance<R> for Film<R> {
     #[inline(always)]
-    fn reflectance(&self, cos_d: R) -> Spectrum<R> {
+    fn at(&self, cos_d: R) -> Spectrum<R> {
         let mut out = Spectrum::ZERO;
         for i in 0..out.0.len() {
             let film = Medium::new(self.film[0].0[i], self.film[1].0[i]);
@@ -74,49 +76,12 @@ impl<R: Real> ThinFilm<R> {
     }
 }
 
-impl<R: Real> Bsdf<R> for ThinFilm<R> {
-    #[inline(always)]
-    fn f(&self, wo: LocalDir<R>, wi: LocalDir<R>) -> Spectrum<R> {
-        mirror_facets::f(
-            &self.ggx,
-            wo,
-            wi,
-            #[inline(always)]
-            |cos| self.reflectance(cos),
-        )
-    }
-
-    #[inline(always)]
-    fn pdf(&self, wo: LocalDir<R>, wi: LocalDir<R>) -> R {
-        mirror_facets::pdf(&self.ggx, wo, wi)
-    }
-
-    #[inline(always)]
-    fn sample(&self, wo: LocalDir<R>, u: Uniforms<R>) -> BsdfSample<R> {
-        mirror_facets::sample(
-            &self.ggx,
-            wo,
-            u,
-            #[inline(always)]
-            |cos| self.reflectance(cos),
-        )
-    }
-
-    #[inline(always)]
-    fn has_smooth_lobe(&self) -> R::Mask {
-        !self.ggx.is_smooth()
-    }
-
-    #[inline(always)]
-    fn regularized(self) -> Self {
-        ThinFilm { ggx: self.ggx.regularized(), ..self }
-    }
-}
-
 #[cfg(test)]
 mod tests {
+    use sparrow_math::LocalDir;
+
     use super::*;
-    use crate::SurfaceKind;
+    use crate::{Bsdf, SurfaceKind, Uniforms};
 
     /// The weights of a mirror with a film on glass, at four wavelengths.
     fn mirror(thickness: f64, lambda: [f64; 4]) -> [f64; 4] {

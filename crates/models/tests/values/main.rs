@@ -48,6 +48,8 @@ const CHECKS: &[(&str, fn())] = checks! {
         microfacet::refracting_facets,
         microfacet::albedos_and_compensation,
         microfacet::walks_match_their_records_and_lose_nothing,
+        microfacet::models_that_walk_lose_nothing,
+        microfacet::walks_of_a_pair_are_the_same_either_way_round,
         microfacet::white_furnace_of_each_energy_choice,
         microfacet::light_on_either_side_of_a_boundary,
         microfacet::white_furnace_of_each_energy_choice_of_a_boundary,

@@ -153,6 +153,10 @@ fn raised<R: Real<Mask = bool>>(by: LocalDir<R>, w: LocalDir<R>) -> LocalDir<R> 
 }
 
 impl<R: Real<Mask = bool>> Bsdf<R> for Metal<R> {
+    fn f_cos_pdf(&self, wo: LocalDir<R>, wi: LocalDir<R>) -> (Spectrum<R>, R) {
+        (self.f(wo, wi) * wi.abs_cos_theta(), self.pdf(wo, wi))
+    }
+
     fn f(&self, wo: LocalDir<R>, wi: LocalDir<R>) -> Spectrum<R> {
         if self.has(Fault::IndexForgotten) {
             return Spectrum::splat(R::of(0.4 * FRAC_1_PI));
