@@ -6,6 +6,7 @@ use std::time::Instant;
 
 use serde::Serialize;
 use sparrow_models::SurfaceKind;
+use sparrow_models::suggest::remedy;
 use sparrow_verify::{ColumnName, Options, Pins, Question, Report, Row, Subject, Verdict};
 
 use crate::args::VerifyArgs;
@@ -95,11 +96,7 @@ fn subjects(args: &VerifyArgs) -> Result<Vec<SurfaceKind>, Failure> {
 /// Where there is none.
 pub(crate) fn kind(name: &str) -> Result<SurfaceKind, Failure> {
     SurfaceKind::from_name(name).ok_or_else(|| {
-        let near = sparrow_verify::nearest(name, SurfaceKind::ALL.iter().map(|k| k.name()));
-        let remedy = match near {
-            Some(near) => format!("did you mean `{near}`?"),
-            None => "`sparrow models` lists them".to_owned(),
-        };
+        let remedy = remedy(name, SurfaceKind::ALL.iter().map(|k| k.name()));
         Failure::usage(format!("there is no model `{name}`; {remedy}"))
     })
 }

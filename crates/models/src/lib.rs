@@ -48,6 +48,7 @@ mod opaque;
 mod params;
 mod per_lane;
 mod registry;
+pub mod suggest;
 mod surface;
 mod table;
 mod v_cavity;

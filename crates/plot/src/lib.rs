@@ -19,7 +19,6 @@
 pub mod draw;
 mod error;
 pub mod figure;
-mod nearest;
 mod series;
 mod words;
 

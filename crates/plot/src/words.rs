@@ -1,10 +1,10 @@
 //! The words of a command to series: [`parse_series`].
 
+use sparrow_models::suggest::remedy;
 use sparrow_models::{ParamInfo, ParamKind, SurfaceKind};
 
 use crate::draw::theme::MAX_SERIES;
 use crate::error::{Fault, PlotError};
-use crate::nearest::remedy;
 use crate::series::{Series, targets};
 
 /// A value as written, and as the number that a model gets.
@@ -86,7 +86,7 @@ fn unknown_model(word: &str) -> String {
         return "a model has to come first; put its name before its parameters".to_owned();
     }
     let names: Vec<&str> = SurfaceKind::ALL.iter().map(|k| k.name()).collect();
-    format!("there is no model of this name; {}", remedy(word, &names))
+    format!("there is no model of this name; {}", remedy(word, names))
 }
 
 fn parse_view(text: &str) -> Result<[f64; 2], String> {
@@ -111,7 +111,7 @@ impl Wish {
         let Some(kind) = self.kind else { return Ok(()) };
         let targets = targets(kind, name);
         let Some(info) = targets.first().map(|i| &kind.params()[*i]) else {
-            return Err(format!("{} has no parameter `{name}`; {}", kind.name(), remedy(name, &known(kind))));
+            return Err(format!("{} has no parameter `{name}`; {}", kind.name(), remedy(name, known(kind))));
         };
         if let Some((other, _)) = self.lists.iter().find(|(n, _)| overlap(kind, n, name)) {
             return Err(format!("`{other}` has set this already; leave one of them out"));
@@ -161,7 +161,9 @@ fn parse_value(info: &ParamInfo, text: &str) -> Result<Value, String> {
     if let ParamKind::Choice(names) = info.kind {
         return match names.iter().position(|n| *n == text) {
             Some(place) => Ok((text.to_owned(), place as f64)),
-            None => Err(format!("`{}` cannot be `{text}`; {}", info.name, remedy(text, names))),
+            None => {
+                Err(format!("`{}` cannot be `{text}`; {}", info.name, remedy(text, names.iter().copied())))
+            }
         };
     }
     let [lo, hi] = info.range;
@@ -205,7 +207,7 @@ mod tests {
         let places: Vec<_> = e.faults.iter().map(|f| f.word.as_ref().map_or(0, |w| w.0)).collect();
         assert_eq!(places, [2, 3, 5, 7], "{e}");
         assert!(
-            e.to_string().contains("did you mean `alpha`?") && e.to_string().contains("`lambert`?"),
+            e.to_string().contains("did you mean \"alpha\"?") && e.to_string().contains("\"lambert\"?"),
             "{e}"
         );
     }
@@ -223,7 +225,7 @@ mod tests {
             ("lambert reflectance=", "is no number"),
             ("conductor k=-1", "at least 0"),
             ("conductor alpha=0.1 alpha_x=0.2", "already"),
-            ("ward form=dur", "did you mean `duer`?"),
+            ("ward form=dur", "did you mean \"duer\"?"),
             ("lambert wo=10,20,30", "degrees"),
             ("phong exponent=1,2,3,4,5 diffuse=0,0.1,0.2,0.3,0.4", "25 series"),
         ] {

@@ -210,7 +210,7 @@ fn maps_run_over_the_roughness() {
         csv.lines().skip(1).map(|l| l.split(',').skip(1).map(|v| v.parse().unwrap()).collect()).collect();
     assert_eq!(rows.len(), 31 * 25);
     assert!(rows.iter().all(|r| (r[1] - r[2]).abs() < 1e-4), "the albedo of Lambert is its reflectance");
-    assert!(refuse("eon", Some("rougness")).contains("did you mean `roughness`?"));
+    assert!(refuse("eon", Some("rougness")).contains("did you mean \"roughness\"?"));
     assert!(refuse("microfacet_reflection", Some("ndf")).contains("has no number `ndf`"));
     let many = series("conductor alpha=0.1,0.2,0.3,0.4,0.5,0.6,0.7");
     assert!(draw_figure(&many, &of(Kind::Lobe3d)).unwrap_err().to_string().contains("room for 6"));

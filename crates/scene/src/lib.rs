@@ -30,8 +30,9 @@ mod read;
 mod report;
 mod source;
 pub mod spd;
-mod suggest;
 mod tables;
+
+use sparrow_models::suggest;
 
 pub use desc::*;
 pub use diagnostic::{Diagnostic, DisplayDiagnostic, SceneError, Severity, Span};

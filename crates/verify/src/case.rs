@@ -97,6 +97,18 @@ impl Case {
         Case { params, view: pins.view.unwrap_or_else(|| view(index, rng)), table }
     }
 
+    /// Sets a choice by its name; a name that is not there changes nothing.
+    pub(crate) fn choose(&mut self, parameter: &str, name: &str) {
+        let choices = self.table.iter().filter_map(|p| match p.kind {
+            ParamKind::Choice(names) => Some((p.name, names)),
+            ParamKind::Real | ParamKind::Albedo | ParamKind::Unbounded => None,
+        });
+        for (slot, (of, names)) in self.params.choices.iter_mut().zip(choices) {
+            let place = names.iter().position(|n| *n == name).filter(|_| of == parameter);
+            *slot = place.and_then(|p| u8::try_from(p).ok()).unwrap_or(*slot);
+        }
+    }
+
     /// The view as a direction.
     pub fn wo(&self) -> LocalDir<f64> {
         if self.view[0].abs() < 1e-12 {

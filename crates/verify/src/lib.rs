@@ -32,7 +32,7 @@ mod tally;
 
 pub use case::Case;
 pub use column::{Batch, Column, Drawn, Scalar, Value, narrow};
-pub use pins::{PinError, Pins, nearest};
+pub use pins::{PinError, Pins};
 pub use question::{ColumnName, Question};
 pub use report::{Claim, Report, Row, Verdict};
 pub use run::{Options, verify};

@@ -1,5 +1,6 @@
 //! What the user names on the command line: [`Pins`].
 
+use sparrow_models::suggest::remedy;
 use sparrow_models::{ParamInfo, ParamKind};
 use sparrow_spectra::N_LAMBDA;
 
@@ -27,13 +28,6 @@ pub enum PinError {
         /// What would be accepted.
         form: String,
     },
-}
-
-/// The name nearest to `word`, where one is near enough to be meant: a quarter of its letters may differ.
-pub fn nearest<'a>(word: &str, names: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    let near = |n: &str| strsim::osa_distance(word, n);
-    let close = names.into_iter().filter(|n| near(n) <= (n.len().max(word.len()) / 4).clamp(1, 4));
-    close.min_by_key(|n| near(n)).filter(|n| near(n) < n.len())
 }
 
 /// What the user named: parameters in the order of the table, and the view in degrees.
@@ -72,13 +66,8 @@ impl Pins {
                 continue;
             }
             let Some(i) = table.iter().position(|p| p.name == name) else {
-                let mut known: Vec<&str> = table.iter().map(|p| p.name).collect();
-                known.push("wo");
-                let remedy = match nearest(name, known.iter().copied()) {
-                    Some(near) => format!("did you mean `{near}`?"),
-                    None => format!("there are {}", known.join(", ")),
-                };
-                return Err(PinError::Unknown { name: name.to_owned(), remedy });
+                let known = table.iter().map(|p| p.name).chain(["wo"]);
+                return Err(PinError::Unknown { name: name.to_owned(), remedy: remedy(name, known) });
             };
             pins.values[i] = Some(pin(&table[i], value).ok_or_else(|| wrong(form(&table[i])))?);
         }

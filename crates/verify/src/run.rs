@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
 use sparrow_math::LocalDir;
-use sparrow_models::{ParamInfo, ParamKind};
+use sparrow_models::{Lack, ParamInfo, ParamKind};
 use sparrow_stats::{Random, sidak};
 
 use crate::case::{Case, Style};
@@ -133,9 +133,29 @@ fn jobs(subjects: &[&dyn Subject], pins: &Pins, options: &Options) -> Vec<Job> {
                 let case = Case::draw(s.params(), pins, index, style, &mut rng);
                 jobs.push(Job { subject, case, full });
             }
+            if !full && pins.is_empty() {
+                let cases = claimed(*s, options.seed);
+                jobs.extend(cases.into_iter().map(|case| Job { subject, case, full }));
+            }
         }
     }
     jobs
+}
+
+/// White cases of the choices for which the model says that it lacks something: drawn at random, some would not be met.
+fn claimed(subject: &dyn Subject, seed: u64) -> Vec<Case> {
+    /// Cases for each claim.
+    const EACH: usize = 6;
+    let lacks = subject.about().lacks.iter().enumerate().filter(|(_, l)| !l.when.is_empty());
+    let case = |claim: usize, lack: &Lack, k: usize| {
+        let mut rng = Random::named(seed, &format!("{} claim {claim} {k}", subject.name()));
+        let mut case = Case::draw(subject.params(), &Pins::default(), k + 1, Style::White, &mut rng);
+        for (parameter, of) in lack.when {
+            case.choose(parameter, of[k % of.len()]);
+        }
+        case
+    };
+    lacks.flat_map(|(claim, lack)| (0..EACH).map(move |k| case(claim, lack, k))).collect()
 }
 
 /// Number of names of all choices together.

@@ -28,7 +28,7 @@ fn all_faults_of_the_words_are_told_and_nothing_is_written() {
         json["errors"].as_array().unwrap().iter().filter_map(|e| e["text"].as_str()).collect();
     assert_eq!(told.len(), 4, "{told:?}");
     assert!(
-        told[0].starts_with("word 2, `alpah=0.1`: ") && told[0].ends_with("did you mean `alpha`?"),
+        told[0].starts_with("word 2, `alpah=0.1`: ") && told[0].ends_with("did you mean \"alpha\"?"),
         "{told:?}"
     );
     for words in [

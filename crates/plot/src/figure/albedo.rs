@@ -1,5 +1,6 @@
 //! Albedo over the angle of the view, and over a parameter too.
 
+use sparrow_models::suggest::remedy;
 use sparrow_models::{ParamInfo, ParamKind, SurfaceKind};
 
 use super::energy::albedo;
@@ -10,7 +11,6 @@ use crate::draw::cartesian::{Cartesian, Line};
 use crate::draw::heat::{Grid, Heat, Panel};
 use crate::draw::table::{Field, Table};
 use crate::error::PlotError;
-use crate::nearest::remedy;
 use crate::series::{Labels, Series, direction, targets};
 
 /// The last angle at which albedo is asked for, in degrees: at 90 a surface is not seen.
@@ -181,7 +181,7 @@ fn roughness(kind: SurfaceKind) -> Result<String, PlotError> {
         PlotError::plain(format!(
             "{} has no roughness; name a parameter with --over, or use --kind albedo; {}",
             kind.name(),
-            remedy("", &numbers(kind))
+            remedy("", numbers(kind))
         ))
     })
 }
@@ -196,7 +196,7 @@ fn parameter<'a>(s: &'a Series, over: &str) -> Result<&'a ParamInfo, PlotError> 
     let table = s.kind.params();
     let info = found.first().map(|i| &table[*i]).filter(|p| !matches!(p.kind, ParamKind::Choice(_)));
     let Some(info) = info else {
-        let remedy = remedy(over, &numbers(s.kind));
+        let remedy = remedy(over, numbers(s.kind));
         return Err(PlotError::plain(format!(
             "{} has no number `{over}` to plot over; {remedy}",
             s.kind.name()

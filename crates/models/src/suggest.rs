@@ -13,13 +13,13 @@ fn distance(a: &[u8], b: &[u8]) -> usize {
                 row[j] = row[j].min(before[j - 2] + 1);
             }
         }
-        before = std::mem::replace(&mut last, row);
+        before = core::mem::replace(&mut last, row);
     }
     last[b.len()]
 }
 
 /// The name nearest to `word`, where one is near enough to be meant: a quarter of its letters may differ.
-pub(crate) fn nearest<'a>(word: &str, names: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+pub fn nearest<'a>(word: &str, names: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let lower = word.to_ascii_lowercase();
     // Long words are no slips of the finger, and the distance costs the product of the lengths.
     if lower.len() > 64 {
@@ -40,7 +40,7 @@ pub(crate) fn nearest<'a>(word: &str, names: impl IntoIterator<Item = &'a str>) 
 const MAX_LISTED: usize = 20;
 
 /// What to do about an unknown name: `did you mean "x"?`, or a list of what is known where nothing is near.
-pub(crate) fn remedy<'a>(word: &str, names: impl IntoIterator<Item = &'a str> + Clone) -> String {
+pub fn remedy<'a>(word: &str, names: impl IntoIterator<Item = &'a str> + Clone) -> String {
     match nearest(word, names.clone()) {
         Some(n) => format!("did you mean \"{n}\"?"),
         None => {
