@@ -162,7 +162,7 @@ impl Inventory {
             integrator: Integrator {
                 name: names::integrator(desc.integrator.name),
                 max_depth: desc.integrator.max_depth,
-                mis: desc.integrator.mis.clone(),
+                mis: desc.integrator.mis.to_string(),
                 mis_compensation: desc.integrator.mis_compensation,
                 light_sampler: names::light_sampler(desc.integrator.light_sampler),
                 regularize: desc.integrator.regularize,

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use sparrow_geometry::{BilinearMesh, Geometry, Shape, ShapeInstance, TriangleMesh};
 use sparrow_math::{Transform, Vec3};
+use sparrow_mis::Mis;
 use sparrow_scene::{
     AreaLightId, FloatTexture, FloatTextureId, MaterialId, Mesh, SceneDesc, ShapeDesc, ShapeKind,
     SpectrumTexture, TextureFilter,
@@ -12,7 +13,6 @@ use sparrow_scene::{
 use crate::camera::Camera;
 use crate::light::LightBuild;
 use crate::material::Material;
-use crate::mis::Mis;
 use crate::scene::Scene;
 use crate::texture::Textures;
 
@@ -52,7 +52,7 @@ impl Parts {
 ///
 /// # Errors
 /// Images that cannot be read and settings that contradict each other, all at once.
-pub fn compile(mut desc: SceneDesc, mis: Mis) -> Result<Compiled, CompileError> {
+pub fn compile(mut desc: SceneDesc) -> Result<Compiled, CompileError> {
     let (mut faults, mut notes) = (Vec::new(), Vec::new());
     let mut textures = Textures::new(&desc, &mut faults);
     let (materials, index) = compile_materials(&desc, &mut textures, &mut faults);
@@ -68,7 +68,7 @@ pub fn compile(mut desc: SceneDesc, mis: Mis) -> Result<Compiled, CompileError> 
         ));
     }
 
-    let compensate = desc.integrator.mis_compensation && !matches!(mis, Mis::LightOnly);
+    let compensate = desc.integrator.mis_compensation && desc.integrator.mis != Mis::LightOnly;
     let lights = LightBuild { desc: &desc, geometry: &geometry, emitters: &emitters, compensate }
         .build(&mut faults, &mut notes);
     if !faults.is_empty() {

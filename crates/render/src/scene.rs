@@ -2,13 +2,13 @@
 
 use sparrow_geometry::{Geometry, Hit, Ray, SurfacePoint};
 use sparrow_math::Vec3;
+use sparrow_mis::Mis;
 use sparrow_scene::FloatTextureId;
 use sparrow_spectra::{Spectrum, Wavelengths};
 
 use crate::camera::Camera;
 use crate::light::{LightSample, Lights, LitPoint, Target};
 use crate::material::Material;
-use crate::mis::Mis;
 use crate::scatter::Scatter;
 use crate::texture::{TextureContext, Textures};
 
@@ -37,7 +37,7 @@ pub struct Scene {
 pub struct LastVertex {
     /// Where it was.
     pub at: LitPoint,
-    /// Density of the direction taken, in 1/sr.
+    /// Density of the direction taken, in 1/sr; zero where it does not look for lights.
     pub pdf: f32,
 }
 
@@ -98,7 +98,10 @@ impl Scene {
         w: &Wavelengths,
     ) -> Spectrum<f32> {
         let weight = |light: u32, pdf: &dyn Fn(&LitPoint) -> f32| {
-            last.map_or(1.0, |v| mis.bsdf_weight(v.pdf, self.lights.probability(&v.at, light) * pdf(&v.at)))
+            last.map_or(1.0, |v| {
+                let p_light = || self.lights.probability(&v.at, light) * pdf(&v.at);
+                if v.pdf > 0.0 { mis.bsdf_weight(v.pdf, p_light()) } else { 0.0 }
+            })
         };
         let Some(point) = hit else {
             return self.lights.infinite().iter().fold(Spectrum::ZERO, |sum, &light| {
