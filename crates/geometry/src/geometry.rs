@@ -6,6 +6,7 @@ use rayon::prelude::*;
 use sparrow_math::{Aabb, Vec3};
 
 use crate::bvh::{Bvh, MAX_PRIMS, Others, PrimRef, RawHit};
+use crate::curve::Curves;
 use crate::patch::Patches;
 use crate::point::{ShapeSample, SurfacePoint};
 use crate::quadric::Quadric;
@@ -34,6 +35,7 @@ pub struct BuildStats {
 enum Body {
     Triangles(Triangles),
     Patches(Patches),
+    Curves(Curves),
     /// `None` where nothing of it can be hit.
     Quadric(Option<Box<Quadric>>),
 }
@@ -43,6 +45,7 @@ impl Body {
         match s.shape {
             Shape::Triangles(m) => Body::Triangles(Triangles::new(m, s.flip_normal)),
             Shape::Patches(m) => Body::Patches(Patches::new(m, s.flip_normal)),
+            Shape::Curves(c) => Body::Curves(Curves::new(c)),
             quadric @ (Shape::Sphere { .. } | Shape::Disk { .. } | Shape::Cylinder { .. }) => {
                 Body::Quadric(Quadric::new(&quadric, &s.to_world, s.flip_normal).map(Box::new))
             }
@@ -52,6 +55,7 @@ impl Body {
         match self {
             Body::Triangles(m) => m.len(),
             Body::Patches(m) => m.len(),
+            Body::Curves(c) => c.len(),
             Body::Quadric(_) => 1,
         }
     }
@@ -60,6 +64,7 @@ impl Body {
         match self {
             Body::Triangles(m) => m.len(),
             Body::Patches(m) => 2 * m.len(),
+            Body::Curves(c) => c.n_ids(),
             Body::Quadric(_) => 1,
         }
     }
@@ -67,6 +72,7 @@ impl Body {
         match self {
             Body::Triangles(m) => m.bytes(),
             Body::Patches(m) => m.bytes(),
+            Body::Curves(c) => c.bytes(),
             Body::Quadric(_) => size_of::<Quadric>(),
         }
     }
@@ -87,6 +93,11 @@ impl Body {
                     out.extend(parts.iter().map(|&(id, b, other)| PrimRef::new(first + id, b, other)));
                 }
                 dropped
+            }
+            Body::Curves(c) => {
+                let block = |(i, &b): (usize, &Aabb)| PrimRef::new(first + i as u32, b, true);
+                out.extend(c.blocks().iter().enumerate().map(block));
+                c.dropped()
             }
             Body::Quadric(Some(q)) => {
                 out.push(PrimRef::new(first, q.bounds(), true));
@@ -125,7 +136,7 @@ impl Bodies {
         match &self.bodies[shape as usize] {
             Body::Triangles(m) => m.raw_corners(local),
             Body::Patches(m) => m.triangle(local),
-            Body::Quadric(_) => [[f32::NAN; 3]; 3],
+            Body::Curves(_) | Body::Quadric(_) => [[f32::NAN; 3]; 3],
         }
     }
     /// What the world knows of a point the tree found.
@@ -133,7 +144,7 @@ impl Bodies {
     fn to_hit(&self, raw: &RawHit) -> Hit {
         let (shape, local) = self.locate(raw.id);
         let (prim, [u, v]) = match &self.bodies[shape as usize] {
-            Body::Triangles(_) => (local, [raw.u, raw.v]),
+            Body::Triangles(_) | Body::Curves(_) => (local, [raw.u, raw.v]),
             Body::Patches(m) => (local / 2, m.parameters(local, raw)),
             Body::Quadric(_) => (0, [0.0; 2]),
         };
@@ -146,6 +157,7 @@ impl Others for Bodies {
         let (shape, local) = self.locate(id);
         match &self.bodies[shape as usize] {
             Body::Patches(m) => m.hit(id, local, ray, t_max, found),
+            Body::Curves(c) => c.hit(id - local, local, ray, t_max, found),
             Body::Quadric(Some(q)) => q.hit(id, ray, t_max, found),
             Body::Triangles(_) | Body::Quadric(None) => t_max,
         }
@@ -215,6 +227,7 @@ impl Geometry {
         match &self.bodies.bodies[hit.shape as usize] {
             Body::Triangles(m) => m.surface(hit),
             Body::Patches(m) => m.surface(hit),
+            Body::Curves(c) => c.surface(ray, hit),
             Body::Quadric(q) => match q {
                 Some(q) => q.surface(ray, hit),
                 None => SurfacePoint::nowhere(ray, hit),
@@ -224,13 +237,13 @@ impl Geometry {
 
     /// Derivatives of the shading normal by the texture coordinates at `hit`, which this geometry gave for `ray`.
     ///
-    /// Few materials ask for them, so they are not part of [`SurfacePoint`].
+    /// Few materials ask for them, so they are not part of [`SurfacePoint`]. Zero for curves.
     pub fn normal_derivatives(&self, ray: &Ray, hit: &Hit) -> (Vec3<f32>, Vec3<f32>) {
         match &self.bodies.bodies[hit.shape as usize] {
             Body::Triangles(m) => m.normal_derivatives(hit),
             Body::Patches(m) => m.normal_derivatives(hit),
             Body::Quadric(Some(q)) => q.normal_derivatives(ray, hit),
-            Body::Quadric(None) => Default::default(),
+            Body::Curves(_) | Body::Quadric(None) => Default::default(),
         }
     }
 
@@ -263,18 +276,20 @@ impl Geometry {
         match self.body(shape) {
             Some(Body::Triangles(m)) => m.area(prim),
             Some(Body::Patches(m)) => m.area(prim),
+            Some(Body::Curves(c)) => c.area(prim),
             Some(Body::Quadric(Some(q))) => q.area(),
             Some(Body::Quadric(None)) | None => 0.0,
         }
     }
     /// Draws a point of a primitive, with a density over the directions in which it is seen from `from`: uniform for
     /// triangles, rectangles and whole spheres of sensible size, else uniform over the surface. `None` where such a
-    /// density does not exist: seen edge-on, or dropped.
+    /// density does not exist: seen edge-on, dropped, or a curve's.
     #[inline]
     pub fn sample_from(&self, shape: u32, prim: u32, from: Vec3<f32>, u: [f32; 2]) -> Option<ShapeSample> {
         match self.body(shape)? {
             Body::Triangles(m) => m.sample_from(prim, from, u),
             Body::Patches(m) => m.sample_from(prim, from, u),
+            Body::Curves(_) => None,
             Body::Quadric(q) => q.as_ref()?.sample_from(from, u),
         }
     }
@@ -297,7 +312,7 @@ impl Geometry {
             Some(Body::Triangles(m)) => m.pdf_from(prim, from, per_area),
             Some(Body::Patches(m)) => m.pdf_from(prim, from, hit_p, hit_n, per_area),
             Some(Body::Quadric(Some(q))) => q.pdf_from(from, hit_n, per_area),
-            Some(Body::Quadric(None)) | None => 0.0,
+            Some(Body::Curves(_) | Body::Quadric(None)) | None => 0.0,
         }
     }
     /// Draws a point of a primitive, with a density per area: uniform for triangles, parallelograms and evenly
@@ -306,6 +321,7 @@ impl Geometry {
         match self.body(shape)? {
             Body::Triangles(m) => m.sample_area(prim, u),
             Body::Patches(m) => m.sample_area(prim, u),
+            Body::Curves(_) => None,
             Body::Quadric(q) => q.as_ref()?.sample_area(u),
         }
     }

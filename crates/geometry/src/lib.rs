@@ -6,6 +6,7 @@
 //! mean in pbrt-v4.
 
 mod bvh;
+mod curve;
 mod geometry;
 mod patch;
 mod point;
@@ -18,4 +19,4 @@ mod triangle;
 pub use geometry::{BuildStats, Geometry};
 pub use point::{ShapeSample, SurfacePoint};
 pub use ray::{Hit, Ray};
-pub use shape::{BilinearMesh, Shape, ShapeInstance, TriangleMesh};
+pub use shape::{BilinearMesh, CurveBasis, CurveKind, CurveSet, Shape, ShapeInstance, TriangleMesh};
