@@ -7,6 +7,7 @@
 use std::ffi::{CString, c_char, c_void};
 use std::path::Path;
 use std::ptr::null;
+use std::sync::OnceLock;
 use std::sync::atomic::{AtomicI64, Ordering::Relaxed};
 
 use libloading::{Library, Symbol};
@@ -57,6 +58,8 @@ impl RtcRayHit {
     }
 }
 
+static LIBRARY: OnceLock<Library> = OnceLock::new();
+
 /// Bytes that Embree holds.
 static HELD: AtomicI64 = AtomicI64::new(0);
 
@@ -94,7 +97,7 @@ pub(crate) struct Embree {
     name: &'static str,
     device: Object,
     scene: Object,
-    library: Library,
+    library: &'static Library,
     /// Embree reads these, the last vertex with four bytes behind it.
     _shared: (Vec<f32>, Vec<u32>),
 }
@@ -111,14 +114,16 @@ impl Drop for Embree {
     }
 }
 
-/// The mesh, built with every setting; nothing where no folder is named.
-pub(crate) fn all(mesh: &TriangleMesh) -> Vec<Embree> {
+/// The mesh, built with the first `settings` of the list; nothing where no folder is named.
+pub(crate) fn all(mesh: &TriangleMesh, settings: usize) -> Vec<Embree> {
     let Ok(dir) = std::env::var("EMBREE_LIB_DIR") else {
         println!("  EMBREE_LIB_DIR is not set: Sparrow runs alone");
         return Vec::new();
     };
     let path = Path::new(&dir).join("libembree4.so");
-    SETTINGS.iter().map(|s| Embree::new(&path, mesh, s)).collect()
+    // SAFETY: loading Embree runs nothing but the constructors of its own statics. It is never unloaded: its threads may outlive us.
+    let library = LIBRARY.get_or_init(|| unsafe { Library::new(path) }.unwrap());
+    SETTINGS.iter().take(settings).map(|s| Embree::new(library, mesh, s)).collect()
 }
 
 /// Looks up a function by its name in Embree and its type.
@@ -131,14 +136,13 @@ macro_rules! function {
 }
 
 impl Embree {
-    fn new(path: &Path, mesh: &TriangleMesh, s: &Setting) -> Embree {
+    fn new(library: &'static Library, mesh: &TriangleMesh, s: &Setting) -> Embree {
         let mut p: Vec<f32> = mesh.p.iter().flatten().copied().collect();
         p.push(0.0);
         let indices: Vec<u32> = mesh.indices.iter().flatten().copied().collect();
         let config = CString::new(format!("threads=1,{}", s.config)).unwrap();
         // SAFETY: types and order of arguments are those of Embree 4's header; the buffers live as long as the scene.
         unsafe {
-            let library = Library::new(path).unwrap();
             let device = function!(library, rtcNewDevice, (*const c_char) -> Object)(config.as_ptr());
             let monitor = function!(
                 library, rtcSetDeviceMemoryMonitorFunction,

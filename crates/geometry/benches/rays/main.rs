@@ -1,6 +1,6 @@
 //! Rays per second of processor time: meshes and soups of triangles; camera, bounce and shadow rays; one thread.
 //!
-//! `cargo bench -p sparrow-geometry --bench rays -- [SCENE] [ROUNDS] [RESOLUTION]`, with SCENE one of `mesh`, `soup`, `small`
+//! `cargo bench -p sparrow-geometry --bench rays -- [SCENE] [ROUNDS] [RESOLUTION] [SETTINGS]`, with SCENE one of `mesh`, `soup`, `small`
 //! or `all`. With `--features embree` and `EMBREE_LIB_DIR` naming a folder that holds `libembree4.so`, every round runs Embree
 //! beside it, and the ratio of the two is the median over the rounds. Linux only: the clock is a thread's processor time.
 
@@ -27,13 +27,13 @@ fn main() {
     let args: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with("--")).collect();
     let what = args.first().map_or("all", String::as_str);
     let number = |i: usize, default: usize| args.get(i).and_then(|s| s.parse().ok()).unwrap_or(default);
-    let (rounds, resolution) = (number(1, 7), number(2, 448));
+    let (rounds, resolution, settings) = (number(1, 7), number(2, 448), number(3, 5));
     let wanted = |name: &str| what == "all" || what == name;
     // Trees are built by this thread, whose clock is read.
     rayon::ThreadPoolBuilder::new().num_threads(1).use_current_thread().build_global().unwrap();
     for scene in scenes::ALL {
         if wanted(scene.name) {
-            scene.run(rounds, resolution);
+            scene.run(rounds, resolution, settings);
         }
     }
 }

@@ -40,8 +40,8 @@ pub(crate) const ALL: [Scene; 3] = [
 ];
 
 impl Scene {
-    /// Builds the tree and times all rays.
-    pub(crate) fn run(&self, rounds: usize, resolution: usize) {
+    /// Builds the tree and times all rays, beside the first `settings` of Embree.
+    pub(crate) fn run(&self, rounds: usize, resolution: usize, settings: usize) {
         let mesh = (self.mesh)();
         println!("{}: {} triangles", self.name, mesh.indices.len());
         let instance = ShapeInstance {
@@ -57,7 +57,7 @@ impl Scene {
         #[cfg_attr(not(feature = "embree"), allow(unused_mut, reason = "Embree is added where it is there"))]
         let mut tracers: Vec<Box<dyn Tracer + '_>> = vec![Box::new(Single(&geometry))];
         #[cfg(feature = "embree")]
-        for tracer in crate::embree::all(&mesh) {
+        for tracer in crate::embree::all(&mesh, settings) {
             tracers.push(Box::new(tracer));
         }
         let sets = RaySets::new(&geometry, camera(self.eye, self.at, 45.0, resolution), self.light);
