@@ -14,6 +14,7 @@ mod quadric;
 mod ray;
 mod sample;
 mod shape;
+mod simd;
 mod triangle;
 
 pub use geometry::{BuildStats, Geometry};

@@ -5,15 +5,15 @@
 use rayon::prelude::*;
 use sparrow_math::{Aabb, Vec3, vec3};
 
-use super::block::TriBlock;
-use super::node::{Child, Node};
+use super::block::{LEAF_SIZE, TriBlock};
+use super::node::{Child, Kind, Node, WIDTH};
 use super::split::{Range, best_split};
+use super::pages::Pages;
 use super::{Bvh, OtherBlock, UNUSED};
+use crate::simd::Unit;
 
 /// Below this size a subtree is built by one thread.
 const PARALLEL: usize = 4096;
-/// Primitives a leaf may hold.
-pub(crate) const LEAF_SIZE: usize = 4;
 
 /// A primitive on its way into the tree.
 #[derive(Clone, Copy, Debug)]
@@ -42,7 +42,12 @@ impl PrimRef {
 
 /// A leaf before its block exists: first place and length, in the list of primitives.
 fn pending_leaf(r: &Range) -> Child {
-    Child::leaf(r.first << 2 | (r.prims.len() - 1), r.prims[0].other)
+    Child::new(if r.prims[0].other { Kind::Others } else { Kind::Triangles }, r.first << 3 | (r.prims.len() - 1))
+}
+
+/// The same child, once `by` nodes were put before the nodes it counts among.
+fn moved(c: Child, by: usize) -> Child {
+    if c.is_leaf() { c } else { Child::new(Kind::Node, c.index() + by) }
 }
 
 /// A subtree; its nodes are numbered from 0.
@@ -58,7 +63,7 @@ fn build_subtree(range: Range, depth: u32) -> Subtree {
         return Subtree { root: pending_leaf(&range), nodes: Vec::new(), stack: 0 };
     }
     let size = range.prims.len();
-    let parts = four_parts(range, depth);
+    let parts = parts_of(range, depth);
     let boxes: Vec<Aabb> = parts.iter().map(|p| p.bounds).collect();
     let subtrees: Vec<Subtree> = if size > PARALLEL {
         parts.into_par_iter().map(|p| build_subtree(p, depth + 1)).collect()
@@ -69,10 +74,10 @@ fn build_subtree(range: Range, depth: u32) -> Subtree {
 }
 
 /// Splits a range until there are four, each time the one with the largest surface.
-fn four_parts(range: Range, depth: u32) -> Vec<Range> {
-    let mut parts = Vec::with_capacity(4);
+fn parts_of(range: Range, depth: u32) -> Vec<Range> {
+    let mut parts = Vec::with_capacity(WIDTH);
     parts.push(range);
-    while parts.len() < 4 {
+    while parts.len() < WIDTH {
         let area = |r: &Range| r.bounds.half_area();
         let open = (0..parts.len()).filter(|&i| !parts[i].is_leaf());
         let Some(i) = open.max_by(|&i, &j| area(&parts[i]).total_cmp(&area(&parts[j]))) else { break };
@@ -92,16 +97,16 @@ fn join(boxes: &[Aabb], subtrees: Vec<Subtree>) -> Subtree {
     nodes.push(root);
     for (i, (b, s)) in boxes.iter().zip(subtrees).enumerate() {
         let offset = nodes.len();
-        root.child[i] = s.root.moved(offset);
+        root.child[i] = moved(s.root, offset);
         for axis in 0..3 {
-            root.bounds[axis][0].set(i, b.lo[axis]);
-            root.bounds[axis][1].set(i, b.hi[axis]);
+            root.bounds[axis][0][i] = b.lo[axis];
+            root.bounds[axis][1][i] = b.hi[axis];
         }
         deepest = deepest.max(s.stack);
-        nodes.extend(s.nodes.iter().map(|n| Node { child: n.child.map(|c| c.moved(offset)), ..*n }));
+        nodes.extend(s.nodes.iter().map(|n| Node { child: n.child.map(|c| moved(c, offset)), ..*n }));
     }
     nodes[0] = root;
-    Subtree { root: Child::node(0), nodes, stack: deepest + siblings }
+    Subtree { root: Child::new(Kind::Node, 0), nodes, stack: deepest + siblings }
 }
 
 /// The primitives that fill the leaves, and in what order.
@@ -118,15 +123,15 @@ impl Leaves {
         if !c.is_leaf() || c == Child::NONE {
             return c;
         }
-        let (first, len) = (c.index() >> 2, (c.index() & 3) + 1);
-        if c.is_other() {
-            let mut block = [UNUSED; 4];
+        let (first, len) = (c.index() >> 3, (c.index() & 7) + 1);
+        if c.is_others() {
+            let mut block = [UNUSED; LEAF_SIZE];
             block[..len].copy_from_slice(&self.ids[first..first + len]);
             self.others.push(block);
-            Child::leaf(self.others.len() - 1, true)
+            Child::new(Kind::Others, self.others.len() - 1)
         } else {
             self.triangles.push((first as u32, len as u8));
-            Child::leaf(self.triangles.len() - 1, false)
+            Child::new(Kind::Triangles, self.triangles.len() - 1)
         }
     }
 }
@@ -134,9 +139,10 @@ impl Leaves {
 impl Bvh {
     /// Builds the tree over `prims`; `corners` gives the corners of the triangles among them.
     pub(crate) fn build(mut prims: Vec<PrimRef>, corners: impl Fn(u32) -> [[f32; 3]; 3] + Sync) -> Bvh {
+        let unit = Unit::choose();
         let Some(range) = Range::whole(&mut prims) else {
-            let (nodes, triangles, others) = Default::default();
-            return Bvh { nodes, triangles, others, root: Child::NONE, stack: 0, bounds: Aabb::EMPTY };
+            let (nodes, triangles, others) = (Pages::zeroed(0), Pages::zeroed(0), Vec::new());
+            return Bvh { nodes, triangles, others, root: Child::NONE, stack: 0, bounds: Aabb::EMPTY, unit };
         };
         let bounds = range.bounds;
         let Subtree { root, mut nodes, stack } = build_subtree(range, 0);
@@ -157,7 +163,12 @@ impl Bvh {
             }
             block
         };
-        let triangles = triangles.par_iter().map(gather).collect();
-        Bvh { nodes, triangles, others, root, stack, bounds }
+        let mut blocks = Pages::zeroed(triangles.len());
+        blocks.par_iter_mut().zip(&triangles).for_each(|(b, t)| *b = gather(t));
+        let triangles = blocks;
+        let mut pages = Pages::zeroed(nodes.len());
+        pages.copy_from_slice(&nodes);
+        let nodes = pages;
+        Bvh { nodes, triangles, others, root, stack, bounds, unit }
     }
 }

@@ -1,21 +1,27 @@
 //! The bounding volume hierarchy: [`Bvh`].
 //!
-//! A tree with four children a node. Leaves hold up to four triangles, gathered side by side, or up to four
+//! A tree with eight children a node. Leaves hold up to four triangles, gathered side by side, or up to four
 //! numbers of other primitives, which the owner of the tree tests itself.
 
 mod block;
 mod build;
-mod lanes;
 mod node;
+mod pages;
+mod ray_data;
 mod split;
+mod stack;
 mod traverse;
 
 pub(crate) use block::{RawHit, TriBlock, gamma};
 pub(crate) use build::PrimRef;
+use block::LEAF_SIZE;
 use node::{Child, Node};
+use pages::Pages;
 pub(crate) use traverse::Others;
 
 use sparrow_math::Aabb;
+
+use crate::simd::Unit;
 
 /// Primitives a tree can number.
 pub(crate) const MAX_PRIMS: usize = 1 << 28;
@@ -24,18 +30,20 @@ pub(crate) const MAX_PRIMS: usize = 1 << 28;
 const UNUSED: u32 = u32::MAX;
 
 /// A leaf of primitives that are not triangles.
-type OtherBlock = [u32; 4];
+type OtherBlock = [u32; LEAF_SIZE];
 
 /// The hierarchy over primitives that are known by number.
 #[derive(Debug)]
 pub(crate) struct Bvh {
-    nodes: Vec<Node>,
-    triangles: Vec<TriBlock>,
+    nodes: Pages<Node>,
+    triangles: Pages<TriBlock>,
     others: Vec<OtherBlock>,
     root: Child,
     /// Entries the stack of a traversal may need.
     stack: usize,
     bounds: Aabb,
+    /// What queries run on.
+    unit: Unit,
 }
 
 impl Bvh {

@@ -3,7 +3,8 @@
 use rayon::prelude::*;
 use sparrow_math::{Aabb, Vec3};
 
-use super::build::{LEAF_SIZE, PrimRef};
+use super::block::LEAF_SIZE;
+use super::build::PrimRef;
 
 /// Bins an axis.
 const BINS: usize = 16;
