@@ -97,7 +97,8 @@ fn shapes(s: &Shapes) -> String {
         (s.strands, "strand"),
     ]);
     if s.strands > 0 {
-        let (segments, points) = (plural(s.curve_segments, "segment"), plural(s.control_points, "control point"));
+        let (segments, points) =
+            (plural(s.curve_segments, "segment"), plural(s.control_points, "control point"));
         let _ = write!(text, " of {segments} and {points} ({})", bytes(s.curve_bytes));
     }
     if s.meshes > 0 {

@@ -5,8 +5,8 @@ use std::sync::Arc;
 use sparrow_geometry::{BilinearMesh, CurveSet, Geometry, Shape, ShapeInstance, TriangleMesh};
 use sparrow_math::{Real, Transform, Vec3};
 use sparrow_scene::{
-    AreaLightId, CurveBasis, CurveKind, Curves, FloatTexture, FloatTextureId, MaterialId, Mesh, SceneDesc, ShapeDesc, ShapeKind,
-    SpectrumTexture, TextureFilter,
+    AreaLightId, CurveBasis, CurveKind, Curves, FloatTexture, FloatTextureId, MaterialId, Mesh, SceneDesc,
+    ShapeDesc, ShapeKind, SpectrumTexture, TextureFilter,
 };
 
 use crate::camera::Camera;

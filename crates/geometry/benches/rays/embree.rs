@@ -114,15 +114,21 @@ impl Drop for Embree {
     }
 }
 
-/// The mesh, built with the first `settings` of the list; nothing where no folder is named.
-pub(crate) fn all(mesh: &TriangleMesh, settings: usize) -> Vec<Embree> {
+/// The library; nothing where no folder is named.
+fn library() -> Option<&'static Library> {
     let Ok(dir) = std::env::var("EMBREE_LIB_DIR") else {
         println!("  EMBREE_LIB_DIR is not set: Sparrow runs alone");
-        return Vec::new();
+        return None;
     };
     let path = Path::new(&dir).join("libembree4.so");
     // SAFETY: loading Embree runs nothing but the constructors of its own statics. It is never unloaded: its threads may outlive us.
-    let library = LIBRARY.get_or_init(|| unsafe { Library::new(path) }.unwrap());
+    Some(LIBRARY.get_or_init(|| unsafe { Library::new(path) }.unwrap()))
+}
+
+/// The mesh, built with the first `settings` of the list.
+#[allow(dead_code, reason = "the benchmark of curves has no meshes")]
+pub(crate) fn all(mesh: &TriangleMesh, settings: usize) -> Vec<Embree> {
+    let Some(library) = library() else { return Vec::new() };
     SETTINGS.iter().take(settings).map(|s| Embree::new(library, mesh, s)).collect()
 }
 
@@ -145,7 +151,8 @@ impl Embree {
         unsafe {
             let device = function!(library, rtcNewDevice, (*const c_char) -> Object)(config.as_ptr());
             let monitor = function!(
-                library, rtcSetDeviceMemoryMonitorFunction,
+                library,
+                rtcSetDeviceMemoryMonitorFunction,
                 (Object, extern "C" fn(*mut c_void, isize, bool) -> bool, *mut c_void)
             );
             monitor(device, count, std::ptr::null_mut());
@@ -155,7 +162,8 @@ impl Embree {
             let geometry = function!(library, rtcNewGeometry, (Object, i32) -> Object)(device, TRIANGLES);
             function!(library, rtcSetGeometryBuildQuality, (Object, i32))(geometry, s.quality);
             let share = function!(
-                library, rtcSetSharedGeometryBuffer,
+                library,
+                rtcSetSharedGeometryBuffer,
                 (Object, i32, u32, i32, *const c_void, usize, usize, usize)
             );
             share(geometry, VERTEX_BUFFER, 0, FLOAT3, p.as_ptr().cast(), 0, 12, mesh.p.len());
@@ -166,7 +174,11 @@ impl Embree {
             let (start, held) = (cpu_seconds(), HELD.load(Relaxed));
             function!(library, rtcCommitScene, (Object))(scene);
             let (seconds, bytes) = (cpu_seconds() - start, HELD.load(Relaxed) - held);
-            assert_eq!(function!(library, rtcGetDeviceError, (Object) -> i32)(device), 0, "Embree refused the scene");
+            assert_eq!(
+                function!(library, rtcGetDeviceError, (Object) -> i32)(device),
+                0,
+                "Embree refused the scene"
+            );
             println!("  {} built in {seconds:.3} s: {:.1} MB without the mesh", s.name, 1e-6 * bytes as f64);
             Embree { name: s.name, device, scene, library, _shared: (p, indices) }
         }
@@ -179,7 +191,8 @@ impl Tracer for Embree {
     }
     fn closest(&self, rays: &[Ray], out: &mut [(f32, u32)]) {
         // SAFETY: as in `new`.
-        let intersect = unsafe { function!(self.library, rtcIntersect1, (Object, *mut RtcRayHit, *const c_void)) };
+        let intersect =
+            unsafe { function!(self.library, rtcIntersect1, (Object, *mut RtcRayHit, *const c_void)) };
         for (ray, out) in rays.iter().zip(out) {
             let mut r = RtcRayHit::new(ray);
             intersect(self.scene, &raw mut r, null());
@@ -193,6 +206,66 @@ impl Tracer for Embree {
             let mut r = RtcRayHit::new(ray).ray;
             occluded(self.scene, &raw mut r, null());
             *out = r.far < 0.0;
+        }
+    }
+}
+
+const ROUND_B_SPLINE: i32 = 32;
+const FLAT_B_SPLINE: i32 = 33;
+const UINT: i32 = 0x5001;
+const FLOAT4: i32 = 0x9004;
+
+/// B-spline strands, round or flat, each given by the first control point of its segments.
+#[allow(dead_code, reason = "the benchmark of triangles has no curves")]
+pub(crate) fn curves(points: &[[f32; 4]], segments: &[u32], round: bool, settings: usize) -> Vec<Embree> {
+    let Some(library) = library() else { return Vec::new() };
+    let kind = if round { ROUND_B_SPLINE } else { FLAT_B_SPLINE };
+    SETTINGS.iter().take(settings).map(|s| Embree::of_curves(library, points, segments, kind, s)).collect()
+}
+
+impl Embree {
+    fn of_curves(
+        library: &'static Library,
+        points: &[[f32; 4]],
+        segments: &[u32],
+        kind: i32,
+        s: &Setting,
+    ) -> Embree {
+        let (p, indices) = (points.iter().flatten().copied().collect::<Vec<f32>>(), segments.to_vec());
+        let config = CString::new(format!("threads=1,{}", s.config)).unwrap();
+        // SAFETY: types and order of arguments are those of Embree 4's header; the buffers live as long as the scene.
+        unsafe {
+            let device = function!(library, rtcNewDevice, (*const c_char) -> Object)(config.as_ptr());
+            let monitor = function!(
+                library,
+                rtcSetDeviceMemoryMonitorFunction,
+                (Object, extern "C" fn(*mut c_void, isize, bool) -> bool, *mut c_void)
+            );
+            monitor(device, count, std::ptr::null_mut());
+            let scene = function!(library, rtcNewScene, (Object) -> Object)(device);
+            function!(library, rtcSetSceneBuildQuality, (Object, i32))(scene, s.quality);
+            function!(library, rtcSetSceneFlags, (Object, i32))(scene, s.flags);
+            let geometry = function!(library, rtcNewGeometry, (Object, i32) -> Object)(device, kind);
+            let share = function!(
+                library,
+                rtcSetSharedGeometryBuffer,
+                (Object, i32, u32, i32, *const c_void, usize, usize, usize)
+            );
+            share(geometry, VERTEX_BUFFER, 0, FLOAT4, p.as_ptr().cast(), 0, 16, points.len());
+            share(geometry, INDEX_BUFFER, 0, UINT, indices.as_ptr().cast(), 0, 4, segments.len());
+            function!(library, rtcCommitGeometry, (Object))(geometry);
+            function!(library, rtcAttachGeometry, (Object, Object) -> u32)(scene, geometry);
+            function!(library, rtcReleaseGeometry, (Object))(geometry);
+            let (start, held) = (cpu_seconds(), HELD.load(Relaxed));
+            function!(library, rtcCommitScene, (Object))(scene);
+            let (seconds, bytes) = (cpu_seconds() - start, HELD.load(Relaxed) - held);
+            assert_eq!(
+                function!(library, rtcGetDeviceError, (Object) -> i32)(device),
+                0,
+                "Embree refused the scene"
+            );
+            println!("  {} built in {seconds:.3} s: {:.1} MB without points", s.name, 1e-6 * bytes as f64);
+            Embree { name: s.name, device, scene, library, _shared: (p, indices) }
         }
     }
 }

@@ -10,12 +10,8 @@ type Weights = [[f32; 4]; 4];
 const LINEAR: Weights = [[1., 0., 0., 0.], [-1., 1., 0., 0.], [0.; 4], [0.; 4]];
 const BEZIER: Weights = [[1., 0., 0., 0.], [-3., 3., 0., 0.], [3., -6., 3., 0.], [-1., 3., -3., 1.]];
 const SIXTH: f32 = 1.0 / 6.0;
-const B_SPLINE: Weights = [
-    [SIXTH, 4.0 * SIXTH, SIXTH, 0.],
-    [-0.5, 0., 0.5, 0.],
-    [0.5, -1., 0.5, 0.],
-    [-SIXTH, 0.5, -0.5, SIXTH],
-];
+const B_SPLINE: Weights =
+    [[SIXTH, 4.0 * SIXTH, SIXTH, 0.], [-0.5, 0., 0.5, 0.], [0.5, -1., 0.5, 0.], [-SIXTH, 0.5, -0.5, SIXTH]];
 const CATMULL_ROM: Weights =
     [[0., 1., 0., 0.], [-0.5, 0., 0.5, 0.], [1., -2.5, 2., -0.5], [-0.5, 1.5, -1.5, 0.5]];
 

@@ -114,7 +114,10 @@ impl ObbBlock {
     fn to_block(&self, o: Vec3<f32>, d: Vec3<f32>) -> (Vec3<f32>, Vec3<f32>, f32) {
         let o = o - Vec3::from(self.origin);
         // Rows are shorter than 222.
-        let pad = 222.0 * PAD * self.scale * (o.abs().max_component() + Vec3::from(self.origin).abs().max_component());
+        let pad = 222.0
+            * PAD
+            * self.scale
+            * (o.abs().max_component() + Vec3::from(self.origin).abs().max_component());
         (o * self.scale, d * self.scale, pad)
     }
 
@@ -201,10 +204,7 @@ mod avx2 {
         for (axes, bounds) in block.axes.iter().zip(&block.bounds) {
             let (x, y, z) = (widen8(&axes[0]), widen8(&axes[1]), widen8(&axes[2]));
             let dot = |a, b, c| {
-                _mm256_add_ps(
-                    _mm256_add_ps(_mm256_mul_ps(x, a), _mm256_mul_ps(y, b)),
-                    _mm256_mul_ps(z, c),
-                )
+                _mm256_add_ps(_mm256_add_ps(_mm256_mul_ps(x, a), _mm256_mul_ps(y, b)), _mm256_mul_ps(z, c))
             };
             let (o, d) = (dot(ox, oy, oz), dot(dx, dy, dz));
             let small = _mm256_cmp_ps::<_CMP_LT_OQ>(_mm256_andnot_ps(sign, d), tiny);
@@ -277,7 +277,8 @@ mod tests {
     fn registers_equal_scalars() {
         let mut rng = Rng(2);
         for _ in 0..2000 {
-            let segments: Vec<(u32, Cubic)> = (0..8).map(|i| (i, segment(&mut rng, Vec3::splat(0.0)))).collect();
+            let segments: Vec<(u32, Cubic)> =
+                (0..8).map(|i| (i, segment(&mut rng, Vec3::splat(0.0)))).collect();
             let block = ObbBlock::around(&segments);
             let (o, d) = (rng.point() * 3.0, rng.point());
             let fast = block.hit(o, d, 5.0);

@@ -54,7 +54,8 @@ pub(super) fn hit<R: Real>(
     inv_length: f32,
     t_max: f32,
 ) -> Option<CurveHit> {
-    let (t0, inv_length, limit) = (R::of(f64::from(c.t)), R::of(f64::from(inv_length)), R::of(f64::from(t_max)));
+    let (t0, inv_length, limit) =
+        (R::of(f64::from(c.t)), R::of(f64::from(inv_length)), R::of(f64::from(t_max)));
     pieces.nearest(
         t_max,
         #[inline(always)]

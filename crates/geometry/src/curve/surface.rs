@@ -4,9 +4,9 @@ use core::f64::consts::FRAC_PI_2;
 
 use sparrow_math::{Real, Vec3};
 
+use super::Curves;
 use super::cubic::CubicPoint;
 use super::strip::slerp_weights;
-use super::Curves;
 use crate::point::SurfacePoint;
 use crate::ray::{Hit, Ray};
 use crate::shape::CurveKind;
@@ -38,12 +38,13 @@ impl Curves {
         let (_, i, n) = self.strands.place(hit.prim);
         let d = ray.d.to_f64().normalized();
         let t = perpendicular(c.dp, Vec3::splat(0.0)).unwrap_or(d);
-        let facing = perpendicular(-d, t)
-            .unwrap_or_else(|| sparrow_math::Frame::from_z(t).x);
+        let facing = perpendicular(-d, t).unwrap_or_else(|| sparrow_math::Frame::from_z(t).x);
         let h = 2.0 * f64::from(hit.v) - 1.0;
         let local = match self.kind {
             CurveKind::Round => self.on_tube(ray, hit, &c, t, facing, cubic.reach()),
-            CurveKind::Flat | CurveKind::Cylinder | CurveKind::Ribbon => self.on_strip(ray, hit, &c, t, facing, h),
+            CurveKind::Flat | CurveKind::Cylinder | CurveKind::Ribbon => {
+                self.on_strip(ray, hit, &c, t, facing, h)
+            }
         };
         let (ng, dpdu) = (local.n.to_f32(), (c.dp * f64::from(n)).to_f32());
         SurfacePoint {
@@ -62,7 +63,15 @@ impl Curves {
 
     /// A strip has no thickness of its own. Rays that leave it start a width away, as in pbrt-v4, so that none meets
     /// the strip that the same fibre turns towards it.
-    fn on_strip(&self, ray: &Ray, hit: &Hit, c: &CubicPoint, t: Vec3<f64>, facing: Vec3<f64>, h: f64) -> Local {
+    fn on_strip(
+        &self,
+        ray: &Ray,
+        hit: &Hit,
+        c: &CubicPoint,
+        t: Vec3<f64>,
+        facing: Vec3<f64>,
+        h: f64,
+    ) -> Local {
         let across = t.cross(facing);
         let (n, seen) = match self.kind {
             CurveKind::Cylinder => {

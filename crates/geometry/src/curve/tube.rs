@@ -62,7 +62,8 @@ impl<R: Real> Cut<R> {
 /// The nearest point between 0 and `t_max` where the ray enters the tube.
 #[inline(always)]
 pub(super) fn hit<R: Real>(c: &RayCubic, pieces: &Pieces, inv_length: f32, t_max: f32) -> Option<CurveHit> {
-    let (t0, inv_length, limit) = (R::of(f64::from(c.t)), R::of(f64::from(inv_length)), R::of(f64::from(t_max)));
+    let (t0, inv_length, limit) =
+        (R::of(f64::from(c.t)), R::of(f64::from(inv_length)), R::of(f64::from(t_max)));
     pieces.nearest(
         t_max,
         #[inline(always)]

@@ -89,7 +89,8 @@ impl Builder {
         if kind != CurveKind::Ribbon && !normals.is_empty() {
             self.report.warn(normals_at, "only curves of type \"ribbon\" take normals; \"N\" is ignored");
         }
-        let points = p.iter().enumerate().map(|(j, &[x, y, z])| [x, y, z, taper(widths, basis, j, n)]).collect();
+        let points =
+            p.iter().enumerate().map(|(j, &[x, y, z])| [x, y, z, taper(widths, basis, j, n)]).collect();
         Some(Curves {
             points,
             strands: vec![0],
@@ -108,7 +109,8 @@ impl Builder {
             return None;
         };
         if kind == CurveKind::Ribbon {
-            self.report.error(at, "files of strands hold no normals; write \"string type\" \"flat\" or \"round\"");
+            self.report
+                .error(at, "files of strands hold no normals; write \"string type\" \"flat\" or \"round\"");
             return None;
         }
         let widths = self.widths(params)?;
@@ -151,7 +153,8 @@ impl Builder {
             return None;
         }
         if file.points.len() > crate::desc::MAX_POINTS {
-            self.report.error(at, format!("\"{name}\" holds more than 2^28 points; split it into several files"));
+            self.report
+                .error(at, format!("\"{name}\" holds more than 2^28 points; split it into several files"));
             return None;
         }
         Some(file)
@@ -198,7 +201,8 @@ impl Builder {
         let ends = ["width0", "width1"].map(|name| params.float(name));
         for (name, v) in [("width", all), ("width0", ends[0]), ("width1", ends[1])] {
             if let Some(v) = v.filter(|v| !(*v >= 0.0 && v.is_finite())) {
-                self.report.error(params.place(name), format!("\"{name}\" is {v}; give one that is not negative"));
+                self.report
+                    .error(params.place(name), format!("\"{name}\" is {v}; give one that is not negative"));
                 return None;
             }
         }
@@ -239,8 +243,9 @@ impl Builder {
             return None;
         }
         if !fits {
-            let message =
-                format!("\"P\" holds {n} points; the basis {name} of degree {d} takes {needs}: add or remove points");
+            let message = format!(
+                "\"P\" holds {n} points; the basis {name} of degree {d} takes {needs}: add or remove points"
+            );
             self.report.error(at, message);
             return None;
         }
@@ -314,7 +319,9 @@ fn gather(
 /// A `curve` joins the shape before it where both are made of the same, so that a groom of single strands is one shape.
 pub(super) fn joined(last: &mut ShapeKind, new: &ShapeKind) -> bool {
     match (last, new) {
-        (ShapeKind::Curves(a), ShapeKind::Curves(b)) => std::sync::Arc::get_mut(a).is_some_and(|a| a.append(b)),
+        (ShapeKind::Curves(a), ShapeKind::Curves(b)) => {
+            std::sync::Arc::get_mut(a).is_some_and(|a| a.append(b))
+        }
         _ => false,
     }
 }

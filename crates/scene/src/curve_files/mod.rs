@@ -87,8 +87,8 @@ impl Fault {
 /// # Errors
 /// [`CurveFileError`] names the file, the byte or line, the fault and a remedy.
 pub fn read(path: &Path) -> Result<CurveFile, CurveFileError> {
-    let bytes = source::read_bytes(path)
-        .map_err(|source| CurveFileError::Io { path: path.to_path_buf(), source })?;
+    let bytes =
+        source::read_bytes(path).map_err(|source| CurveFileError::Io { path: path.to_path_buf(), source })?;
     read_from(&bytes, path)
 }
 
@@ -140,8 +140,10 @@ impl Gathered {
     }
     fn finish(mut self, basis: CurveBasis) -> CurveFile {
         self.file.basis = basis;
-        let reasons =
-            [(self.n_short, "of fewer than two points"), (self.n_not_finite, "with numbers that are not finite")];
+        let reasons = [
+            (self.n_short, "of fewer than two points"),
+            (self.n_not_finite, "with numbers that are not finite"),
+        ];
         for (n, reason) in reasons {
             if n > 0 {
                 let strands = if n == 1 { "1 strand".to_string() } else { format!("{n} strands") };

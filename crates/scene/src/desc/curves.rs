@@ -87,7 +87,8 @@ impl Curves {
     }
     /// Takes the strands of another, if both are of one sort and there is room.
     pub(crate) fn append(&mut self, other: &Curves) -> bool {
-        let alike = self.basis == other.basis && self.kind == other.kind && self.split_depth == other.split_depth;
+        let alike =
+            self.basis == other.basis && self.kind == other.kind && self.split_depth == other.split_depth;
         if !alike || self.points.len() + other.points.len() > MAX_POINTS {
             return false;
         }
