@@ -93,7 +93,7 @@ impl Cubic {
     /// A bound of the radius from above; zero where it is nowhere positive.
     #[inline(always)]
     pub(super) fn largest_radius(&self) -> f32 {
-        let [a0, a1, a2, a3] = self.a.map(|a| a[3]);
+        let [[.., a0], [.., a1], [.., a2], [.., a3]] = self.a;
         let ends = a0.max(a0 + a1 + a2 + a3);
         let inner = (a0 + a1 / 3.0).max(a0 + (2.0 * a1 + a2) / 3.0);
         ends.max(inner).max(0.0)

@@ -12,17 +12,36 @@ pub(super) struct RayFrame {
     d: Vec3<f64>,
     inv_d2: f64,
     pub(super) inv_length: f32,
-    pub(super) frame: Frame<f32>,
+    /// The map to the frame of the ray, by columns; radii pass unchanged.
+    columns: [[f32; 4]; 4],
+    /// The direction of the ray.
+    pub(super) z: Vec3<f32>,
 }
 
 impl RayFrame {
     #[inline(always)]
     pub(super) fn new(ray: &Ray) -> RayFrame {
         let d = ray.d.to_f64();
-        let inv_d2 = 1.0 / d.length2();
-        let inv_length = inv_d2.sqrt();
-        let z = (d * inv_length).to_f32();
-        RayFrame { o: ray.o.to_f64(), d, inv_d2, inv_length: inv_length as f32, frame: Frame::from_z(z) }
+        let inv_length = 1.0 / ray.d.length();
+        let Frame { x, y, z } = Frame::from_z(ray.d * inv_length);
+        RayFrame {
+            o: ray.o.to_f64(),
+            d,
+            inv_d2: 1.0 / d.length2(),
+            inv_length,
+            columns: [[x.x, y.x, z.x, 0.0], [x.y, y.y, z.y, 0.0], [x.z, y.z, z.z, 0.0], [0.0, 0.0, 0.0, 1.0]],
+            z,
+        }
+    }
+    #[inline(always)]
+    fn turned(&self, v: [f32; 4]) -> [f32; 4] {
+        let mut out = [0.0; 4];
+        for (v, column) in v.iter().zip(&self.columns) {
+            for (out, c) in out.iter_mut().zip(column) {
+                *out += c * v;
+            }
+        }
+        out
     }
 }
 
@@ -60,22 +79,19 @@ impl RayCubic {
         let q = Vec3::from(c.anchor).to_f64() - r.o;
         let t = q.dot(r.d) * r.inv_d2;
         let q = (q - r.d * t).to_f32();
-        let turned = |[x, y, z, radius]: [f32; 4], by: Vec3<f32>| {
-            let v = by + Vec3 { x, y, z };
-            [v.dot(r.frame.x), v.dot(r.frame.y), v.dot(r.frame.z), radius]
-        };
-        let zero = Vec3::splat(0.0);
-        let [a, b, c, d] = c.a;
-        RayCubic { a: [turned(a, q), turned(b, zero), turned(c, zero), turned(d, zero)], t: t as f32 }
+        let [mut a, b, c, d] = c.a;
+        for (a, q) in a.iter_mut().zip([q.x, q.y, q.z]) {
+            *a += q;
+        }
+        RayCubic { a: [r.turned(a), r.turned(b), r.turned(c), r.turned(d)], t: t as f32 }
     }
 
     /// A bound of the second derivative across the ray, squared.
     #[inline(always)]
     pub(super) fn bend2(&self) -> f32 {
-        let [x, y] = [0, 1].map(|i| {
-            let (c, d) = (2.0 * self.a[2][i], 6.0 * self.a[3][i]);
-            c.abs().max((c + d).abs())
-        });
+        let along = |c: f32, d: f32| (2.0 * c).abs().max((2.0 * c + 6.0 * d).abs());
+        let x = along(self.a[2][0], self.a[3][0]);
+        let y = along(self.a[2][1], self.a[3][1]);
         x * x + y * y
     }
 

@@ -96,12 +96,7 @@ impl Curves {
         t_max: f32,
         found: &mut impl FnMut(RawHit) -> f32,
     ) -> f32 {
-        let block = &self.blocks[block as usize];
-        let entries = block.hit(ray.o, ray.d, t_max);
-        if entries.mask == 0 {
-            return t_max;
-        }
-        in_lanes(Candidates { curves: self, block, entries, ray, first, t_max, found })
+        in_lanes(BlockTest { curves: self, block: &self.blocks[block as usize], ray, first, t_max, found })
     }
 
     /// The nearest point of the ray on part `u` of a segment.
@@ -117,7 +112,7 @@ impl Curves {
             }
             CurveKind::Ribbon => {
                 let (n, angle) = self.end_normals(segment);
-                let along = n.map(|n| n.dot(r.frame.z));
+                let along = n.map(|n| n.dot(r.z));
                 strip::hit::<R>(&seen, &pieces, Width::Ribbon { angle, along }, r.inv_length, t_max)
             }
         }
@@ -144,29 +139,45 @@ fn part_of(id: u32, split: u32) -> (u32, [f32; 2]) {
     (id >> split, [i as f32 / n as f32, (i + 1) as f32 / n as f32])
 }
 
-/// The segments of a block whose boxes a ray meets.
-struct Candidates<'a, F> {
+/// A ray and a block.
+struct BlockTest<'a, F> {
     curves: &'a Curves,
     block: &'a ObbBlock,
-    entries: Entries,
     ray: &'a Ray,
     first: u32,
     t_max: f32,
     found: &'a mut F,
 }
 
-impl<F: FnMut(RawHit) -> f32> InLanes for Candidates<'_, F> {
+impl<F: FnMut(RawHit) -> f32> InLanes for BlockTest<'_, F> {
     type Output = f32;
     /// The last limit.
     #[inline(always)]
     fn run<R: Real>(self) -> f32 {
+        let Entries { mut mask, t } = self.block.hit(self.ray.o, self.ray.d, self.t_max);
+        let mut limit = self.t_max;
+        if mask == 0 {
+            return limit;
+        }
+        let mut rest = mask;
+        while rest != 0 {
+            let i = rest.trailing_zeros() as usize & (WIDTH - 1);
+            rest &= rest - 1;
+            self.curves.strands.ahead(part_of(self.block.id[i], self.curves.split).0);
+        }
         let r = RayFrame::new(self.ray);
-        let (mut mask, mut limit) = (self.entries.mask, self.t_max);
         while mask != 0 {
-            let i = mask.trailing_zeros() as usize & (WIDTH - 1);
-            mask &= mask - 1;
-            if self.entries.t[i] > limit {
-                continue;
+            // The box that is entered first; a point found there often spares the others.
+            let mut i = mask.trailing_zeros() as usize & (WIDTH - 1);
+            let mut rest = mask & (mask - 1);
+            while rest != 0 {
+                let k = rest.trailing_zeros() as usize & (WIDTH - 1);
+                rest &= rest - 1;
+                i = if t[k] < t[i] { k } else { i };
+            }
+            mask &= !(1 << i);
+            if t[i] > limit {
+                break;
             }
             let (segment, u) = part_of(self.block.id[i], self.curves.split);
             if let Some(h) = self.curves.hit_segment::<R>(segment, u, &r, limit) {

@@ -27,6 +27,8 @@ pub(super) struct ObbBlock {
     origin: [f32; 3],
     /// Block space from world space: a factor.
     scale: f32,
+    /// What rounding may do near the block.
+    margin: f32,
 }
 
 /// Which boxes a ray meets, one bit each, and where it enters them; elsewhere that is not set.
@@ -80,6 +82,7 @@ impl ObbBlock {
             id: [u32::MAX; WIDTH],
             origin: origin.to_array(),
             scale,
+            margin: 222.0 * PAD * scale * origin.abs().max_component(),
         };
         for (i, (id, c)) in segments.iter().enumerate() {
             block.id[i] = *id;
@@ -90,7 +93,7 @@ impl ObbBlock {
 
     fn set(&mut self, i: usize, c: &Cubic) {
         let hull = c.hull();
-        let from_origin = (Vec3::from(c.anchor).to_f64() - Vec3::from(self.origin).to_f64()) * 1.0;
+        let from_origin = Vec3::from(c.anchor).to_f64() - Vec3::from(self.origin).to_f64();
         for (k, row) in axes_of(&hull).into_iter().enumerate() {
             let r = vec3(f64::from(row[0]), f64::from(row[1]), f64::from(row[2]));
             let (mut lo, mut hi) = (f64::INFINITY, f64::NEG_INFINITY);
@@ -122,7 +125,7 @@ impl ObbBlock {
     }
 
     /// The boxes met between 0 and `t_max`.
-    #[inline]
+    #[inline(always)]
     pub(super) fn hit(&self, o: Vec3<f32>, d: Vec3<f32>, t_max: f32) -> Entries {
         let (o, d, pad) = self.to_block(o, d);
         #[cfg(target_arch = "x86_64")]
@@ -173,6 +176,7 @@ mod avx2 {
     use super::{Entries, ObbBlock, SLACK, TINY, WIDTH};
 
     /// As [`ObbBlock::hit_scalar`], on a processor with AVX2.
+    #[inline(always)]
     pub(super) fn hit(block: &ObbBlock, o: Vec3<f32>, d: Vec3<f32>, pad: f32, t_max: f32) -> Entries {
         // SAFETY: the caller has found AVX2.
         unsafe { kernel(block, o, d, pad, t_max) }
@@ -194,6 +198,7 @@ mod avx2 {
     }
 
     #[target_feature(enable = "avx2")]
+    #[inline]
     fn kernel(block: &ObbBlock, o: Vec3<f32>, d: Vec3<f32>, pad: f32, t_max: f32) -> Entries {
         let splat = |v: f32| _mm256_set1_ps(v);
         let (ox, oy, oz) = (splat(o.x), splat(o.y), splat(o.z));

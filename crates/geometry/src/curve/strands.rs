@@ -3,6 +3,7 @@
 use sparrow_math::Vec3;
 
 use super::cubic::Cubic;
+use crate::simd::prefetch;
 use crate::shape::{CurveBasis, CurveSet};
 
 /// The point before the first is mirrored: the segment begins its strand.
@@ -85,13 +86,23 @@ impl Strands {
             }
             CurveBasis::CatmullRom => {
                 let [a, b] = [self.points[i], self.points[i + 1]];
-                let mirrored = |a: [f32; 4], b: [f32; 4]| [0, 1, 2, 3].map(|k| 2.0 * a[k] - b[k]);
+                let mirrored = |a: [f32; 4], b: [f32; 4]| {
+                    [2.0 * a[0] - b[0], 2.0 * a[1] - b[1], 2.0 * a[2] - b[2], 2.0 * a[3] - b[3]]
+                };
                 let before = if s & FIRST != 0 { mirrored(a, b) } else { self.points[i - 1] };
                 let behind = if s & LAST != 0 { mirrored(b, a) } else { self.points[i + 2] };
                 [before, a, b, behind]
             }
         };
         Cubic::new(self.basis, &p)
+    }
+
+    /// Asks for the points of a segment ahead of their use.
+    #[inline(always)]
+    pub(super) fn ahead(&self, segment: u32) {
+        let i = (self.segments[segment as usize] & POINT) as usize;
+        prefetch(&self.points, i);
+        prefetch(&self.points, i + 3);
     }
 
     /// The segment can be hit: numbers are finite, it has a length, and somewhere a radius.

@@ -5,11 +5,8 @@
 
 use sparrow_math::{Mask, Real};
 
-use super::frame::RayCubic;
+use super::frame::{LaneJet, RayCubic};
 use super::pieces::{CurveHit, Found, Lane, Pieces, Reach, until_rest};
-
-/// Newton steps at most; three bring nearly all to rest.
-const STEPS: usize = 6;
 
 /// How much of a strip's width a ray sees: all, or that of a ribbon with these normals at the ends of the segment,
 /// given by their angle and their components along the ray.
@@ -60,35 +57,40 @@ pub(super) fn hit<R: Real>(
         t_max,
         #[inline(always)]
         |pieces: &Pieces, lane: Lane<R>| {
-            let Reach { alive, turning } = pieces.reach::<R>(&c.jet(lane.u));
+            let middle = c.jet(lane.u);
+            let Reach { alive, turning } = pieces.reach::<R>(&middle);
             if !alive.any() {
                 return None;
             }
-            let (u, at_rest) = until_rest(
+            let (u, (du, j), at_rest) = until_rest(
                 &lane,
                 alive,
-                STEPS,
+                (newton(&middle), middle),
                 #[inline(always)]
                 |u| {
                     let j = c.jet(u);
-                    let speed2 = j.d.x.sqr() + j.d.y.sqr();
-                    let slope = speed2 + j.p.x * j.dd.x + j.p.y * j.dd.y;
-                    // Where the distance has no minimum nearby, the step for a straight line.
-                    let slope = R::select(slope.gt(R::of(0.1) * speed2), slope, speed2);
-                    let g = j.p.x * j.d.x + j.p.y * j.d.y;
-                    -(g / slope.max(R::of(1e-30)))
+                    (newton(&j), j)
                 },
             );
-            let j = c.jet(u);
-            let r = j.p.r * width.seen(u);
+            // The distance is stationary; radius and depth are not.
+            let r = (j.p.r + j.d.r * du) * width.seen(u);
             let speed = (j.d.x.sqr() + j.d.y.sqr()).sqrt();
             let across = (j.p.x * j.d.y - j.p.y * j.d.x) / speed;
-            let t = t0 + j.p.z * inv_length;
-            let dist2 = j.p.x.sqr() + j.p.y.sqr();
-            let met = alive & at_rest & pieces.holds(&lane, u) & r.gt(R::ZERO) & dist2.le(r.sqr());
+            let t = t0 + (j.p.z + j.d.z * du) * inv_length;
+            let met = alive & at_rest & pieces.holds(&lane, u) & r.gt(R::ZERO) & across.abs().le(r);
             let met = met & t.gt(R::ZERO) & t.lt(limit);
-            let h = R::select(speed.gt(R::ZERO), across / r, R::ZERO);
-            Some((Found { t: R::select(met, t, limit), u, h }, turning))
+            Some((Found { t: R::select(met, t, limit), u, h: across / r }, turning))
         },
     )
+}
+
+/// Newton's step to where the curve comes nearest to the ray.
+#[inline(always)]
+fn newton<R: Real>(j: &LaneJet<R>) -> R {
+    let speed2 = j.d.x.sqr() + j.d.y.sqr();
+    let slope = speed2 + j.p.x * j.dd.x + j.p.y * j.dd.y;
+    // Where the distance has no minimum nearby, the step for a straight line.
+    let slope = R::select(slope.gt(R::of(0.1) * speed2), slope, speed2);
+    let g = j.p.x * j.d.x + j.p.y * j.d.y;
+    -(g / slope.max(R::of(1e-30)))
 }

@@ -12,9 +12,6 @@ use sparrow_math::{Mask, Real};
 use super::frame::{LaneJet, RayCubic};
 use super::pieces::{CurveHit, Found, Lane, Pieces, Reach, until_rest};
 
-/// Steps at most; three bring nearly all to rest.
-const STEPS: usize = 8;
-
 /// The ray, cut with the cone that touches the tube along one of its circles.
 struct Cut<R: Real> {
     /// From the circle's centre to the point, along the ray.
@@ -59,6 +56,13 @@ impl<R: Real> Cut<R> {
     }
 }
 
+/// A point of the curve with the cut there, after the step that it suggests.
+#[inline(always)]
+fn stepped<R: Real>(j: LaneJet<R>) -> (R, (LaneJet<R>, Cut<R>)) {
+    let cut = Cut::new(&j);
+    (cut.step(&j), (j, cut))
+}
+
 /// The nearest point between 0 and `t_max` where the ray enters the tube.
 #[inline(always)]
 pub(super) fn hit<R: Real>(c: &RayCubic, pieces: &Pieces, inv_length: f32, t_max: f32) -> Option<CurveHit> {
@@ -68,22 +72,18 @@ pub(super) fn hit<R: Real>(c: &RayCubic, pieces: &Pieces, inv_length: f32, t_max
         t_max,
         #[inline(always)]
         |pieces: &Pieces, lane: Lane<R>| {
-            let Reach { alive, turning } = pieces.reach::<R>(&c.jet(lane.u));
+            let middle = c.jet(lane.u);
+            let Reach { alive, turning } = pieces.reach::<R>(&middle);
             if !alive.any() {
                 return None;
             }
-            let (u, at_rest) = until_rest(
+            let (u, (_, (j, cut)), at_rest) = until_rest(
                 &lane,
                 alive,
-                STEPS,
+                stepped(middle),
                 #[inline(always)]
-                |u| {
-                    let j = c.jet(u);
-                    Cut::new(&j).step(&j)
-                },
+                |u| stepped(c.jet(u)),
             );
-            let j = c.jet(u);
-            let cut = Cut::new(&j);
             let t = t0 + (j.p.z + cut.s) * inv_length;
             let met = alive & at_rest & pieces.holds(&lane, u) & j.p.r.gt(R::ZERO);
             let met = met & cut.discriminant.ge(R::ZERO) & t.gt(R::ZERO) & t.lt(limit);
