@@ -52,6 +52,8 @@ fn main() {
 /// Strands made by formulas, and rays at them.
 #[cfg(target_os = "linux")]
 mod fur {
+    use core::f32::consts::TAU;
+
     use sparrow_geometry::{CurveBasis, CurveKind, CurveSet, Geometry, Ray, Shape, ShapeInstance};
     use sparrow_math::{Frame, Real, Transform, Vec3, vec3};
 
@@ -72,7 +74,7 @@ mod fur {
             let n = rng.sphere();
             let frame = Frame::from_z(n);
             let l = length * (0.6 + 0.8 * rng.next());
-            let (phase, curl) = (6.28 * rng.next(), 0.02 + 0.05 * rng.next());
+            let (phase, curl) = (TAU * rng.next(), 0.02 + 0.05 * rng.next());
             let lean =
                 |k: f32| Real::sin(3.0 * n.x + k) * Real::sin(3.0 * n.y + 2.0 * k) * Real::sin(3.0 * n.z - k);
             let bend = vec3(lean(0.3), lean(1.7) - 0.7, lean(4.1)) + rng.sphere() * 0.15;
@@ -99,7 +101,7 @@ mod fur {
         for _ in 0..clumps {
             let mut root = rng.sphere();
             root.y = root.y.abs();
-            let (phase, turns, wide) = (6.28 * rng.next(), 5.0 + 4.0 * rng.next(), 0.03 + 0.03 * rng.next());
+            let (phase, turns, wide) = (TAU * rng.next(), 5.0 + 4.0 * rng.next(), 0.03 + 0.03 * rng.next());
             let length = 1.2 + 0.8 * rng.next();
             for _ in 0..members {
                 let own = rng.sphere() * 0.05;
@@ -108,7 +110,7 @@ mod fur {
                     let u = k as f32 / (POINTS - 1) as f32;
                     let out = vec3(root.x, 0.0, root.z) * (0.4 * length * u * (1.0 - 0.6 * u));
                     let hang = vec3(0.0, -length * u * u, 0.0);
-                    let (s, c) = Real::sin_cos(phase + lag + 6.283 * turns * u);
+                    let (s, c) = Real::sin_cos(phase + lag + TAU * turns * u);
                     let helix = vec3(c, 0.3 * s, s) * (wide * loose * u.min(0.2) * 5.0);
                     // Members close up towards the tip.
                     let p = root + out + hang + helix + own * (1.0 - 0.8 * u);
@@ -169,7 +171,7 @@ mod fur {
             let mut rng = Rng(3);
             let first = scattered(&geometry, &camera, &mut rng, |rng| rng.sphere());
             let mut second = scattered(&geometry, &first, &mut rng, |rng| rng.sphere());
-            rng.shuffle(&mut second);
+            shuffle(&mut second, &mut rng);
             let sun = |rng: &mut Rng| (rng.sphere() * 0.3 + vec3(0.5, 1.0, 0.6)).normalized();
             let mut shadow = scattered(&geometry, &camera, &mut rng, sun);
             shadow.extend(scattered(&geometry, &first, &mut rng, sun));
@@ -177,6 +179,12 @@ mod fur {
             race("scatter", &tracers, &first, self.rounds, Query::Closest);
             race("second scatter, shuffled", &tracers, &second, self.rounds, Query::Closest);
             race("shadow, any hit", &tracers, &shadow, self.rounds, Query::Any);
+        }
+    }
+
+    fn shuffle(rays: &mut [Ray], rng: &mut Rng) {
+        for i in (1..rays.len()).rev() {
+            rays.swap(i, (rng.next() * (i + 1) as f32) as usize);
         }
     }
 

@@ -47,7 +47,9 @@ fn widths_taper() {
         \"point3 P\" [0 0 0 1 0 0 2 0 0 3 0 0 4 0 0 5 0 0 6 0 0]");
     assert_eq!(c.n_segments(), 2);
     assert!(near(c.points[0], [0.0, 0.0, 0.0, 4.0]) && near(c.points[6], [6.0, 0.0, 0.0, 1.0]));
-    let c = one(&format!("Shape \"curve\" \"string basis\" \"bspline\" \"float width\" 2 \"float width1\" 0 {P4}"));
+    let c = one(&format!(
+        "Shape \"curve\" \"string basis\" \"bspline\" \"float width\" 2 \"float width1\" 0 {P4}"
+    ));
     // One segment, which begins at the second point's parameter and ends at the third's.
     let radii: Vec<f32> = c.points.iter().map(|p| p[3]).collect();
     assert_eq!(radii, [2.0, 1.0, 0.0, -1.0]);
@@ -58,7 +60,9 @@ fn curves_of_degree_two_are_raised() {
     let c = one("Shape \"curve\" \"integer degree\" 2 \"point3 P\" [0 0 0  3 0 0  3 3 0]");
     let expected = [[0.0, 0.0], [2.0, 0.0], [3.0, 1.0], [3.0, 3.0]];
     assert!(c.points.iter().zip(expected).all(|(p, e)| near(*p, [e[0], e[1], 0.0, 0.5])), "{:?}", c.points);
-    let c = one("Shape \"curve\" \"string basis\" \"bspline\" \"integer degree\" 2 \"point3 P\" [0 0 0  2 0 0  2 2 0  4 2 0]");
+    let c = one(
+        "Shape \"curve\" \"string basis\" \"bspline\" \"integer degree\" 2 \"point3 P\" [0 0 0  2 0 0  2 2 0  4 2 0]",
+    );
     // Two segments, which meet half way between the middle points.
     assert_eq!((c.points.len(), c.n_segments()), (7, 2));
     assert!(near(c.points[0], [1.0, 0.0, 0.0, 0.5]) && near(c.points[3], [2.0, 1.0, 0.0, 0.5]));
@@ -66,7 +70,9 @@ fn curves_of_degree_two_are_raised() {
 
 #[test]
 fn hermite_curves_become_bezier_curves() {
-    let c = one("Shape \"curve\" \"string basis\" \"hermite\" \"point3 P\" [0 0 0  1 0 0] \"vector3 T\" [0 3 0  0 -3 0]");
+    let c = one(
+        "Shape \"curve\" \"string basis\" \"hermite\" \"point3 P\" [0 0 0  1 0 0] \"vector3 T\" [0 3 0  0 -3 0]",
+    );
     assert_eq!(c.basis, CurveBasis::Bezier);
     assert!(near(c.points[1], [0.0, 1.0, 0.0, 0.5]) && near(c.points[2], [1.0, 1.0, 0.0, 0.5]));
 }
@@ -93,7 +99,9 @@ fn neighbours_join() {
             .collect();
         assert_eq!(strands, [1, 1], "after {between}");
     }
-    let s = scene(&format!("ObjectBegin \"o\" {curve}{curve} ObjectEnd ObjectInstance \"o\" ObjectInstance \"o\""));
+    let s = scene(&format!(
+        "ObjectBegin \"o\" {curve}{curve} ObjectEnd ObjectInstance \"o\" ObjectInstance \"o\""
+    ));
     assert_eq!((s.shapes.len(), curves(&s, 1).strands.len()), (2, 2));
 }
 
@@ -111,12 +119,18 @@ fn ribbons_have_normals() {
 fn faults_have_a_place_and_a_remedy() {
     for (text, message) in [
         ("\"curve\"".to_string(), "\"P\" holds 0 points; the basis bezier of degree 3 takes 4 + k * 3"),
-        (format!("\"curve\" \"string type\" \"rond\" {P4}"), "curves have no type \"rond\"; did you mean \"round\"?"),
+        (
+            format!("\"curve\" \"string type\" \"rond\" {P4}"),
+            "curves have no type \"rond\"; did you mean \"round\"?",
+        ),
         (format!("\"curve\" \"string basis\" \"b-spline\" {P4}"), "did you mean \"bspline\"?"),
         (format!("\"curve\" \"integer degree\" 4 {P4}"), "\"degree\" is 4; give 3"),
         (format!("\"curve\" \"float width\" -1 {P4}"), "\"width\" is -1; give one that is not negative"),
         ("\"curve\" \"point3 P\" [0 0 0 1 1 1 2 2 2 3 3 3 4 4 4]".to_string(), "\"P\" holds 5 points"),
-        ("\"curve\" \"string basis\" \"hermite\" \"point3 P\" [0 0 0 1 1 1]".to_string(), "and 0 tangents; give one"),
+        (
+            "\"curve\" \"string basis\" \"hermite\" \"point3 P\" [0 0 0 1 1 1]".to_string(),
+            "and 0 tangents; give one",
+        ),
         ("\"hair\"".to_string(), "the hair names no file; add \"string filename\""),
         ("\"hair\" \"string filename\" \"none.hair\"".to_string(), "there is no such file; looked for"),
     ] {
@@ -148,7 +162,8 @@ fn data() -> Option<PathBuf> {
 #[test]
 fn grooms_of_other_programs_are_read() {
     let Some(dir) = data() else { return };
-    let file = |name: &str| one(&format!("Shape \"hair\" \"string filename\" \"{}\"", dir.join(name).display()));
+    let file =
+        |name: &str| one(&format!("Shape \"hair\" \"string filename\" \"{}\"", dir.join(name).display()));
     let ball = file("fur-ball.hair");
     assert_eq!((ball.strands.len(), ball.points.len()), (11_341, 68_046));
     let beziers = one(&format!("Include \"{}\"", dir.join("fur-ball.pbrt.gz").display()));

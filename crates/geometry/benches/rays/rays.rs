@@ -23,7 +23,7 @@ impl Rng {
         let w = warp::cosine_hemisphere([self.next(), self.next()]);
         Frame::from_z(n).to_world(LocalDir::new(w))
     }
-    pub(crate) fn shuffle<T>(&mut self, v: &mut [T]) {
+    fn shuffle<T>(&mut self, v: &mut [T]) {
         for i in (1..v.len()).rev() {
             v.swap(i, (self.bits() % (i as u64 + 1)) as usize);
         }

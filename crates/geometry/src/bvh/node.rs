@@ -1,9 +1,6 @@
 //! The tree's parts: [`Node`] and its [`Child`]ren.
 
-#![allow(
-    unsafe_code,
-    reason = "says that the bytes of a type are numbers, so that it can lie in mapped pages"
-)]
+#![allow(unsafe_code, reason = "says that the bytes of a type are numbers, so that it can lie in mapped pages")]
 
 use bytemuck::{Pod, Zeroable};
 

@@ -42,13 +42,9 @@ impl<'a> Range<'a> {
         };
         Range { prims, first, bounds, centers2 }
     }
-    /// It fits into one leaf, and all its primitives are of one sort. Nothing tests the boxes of other primitives in a
-    /// leaf, so each has a leaf of its own.
+    /// It fits into one leaf, and all its primitives are of one sort.
     pub(crate) fn is_leaf(&self) -> bool {
-        self.prims.len() <= self.leaf_size() && self.prims.iter().all(|p| p.other == self.prims[0].other)
-    }
-    fn leaf_size(&self) -> usize {
-        if self.prims[0].other { 1 } else { LEAF_SIZE }
+        self.prims.len() <= LEAF_SIZE && self.prims.iter().all(|p| p.other == self.prims[0].other)
     }
     fn split_at(self, mid: usize) -> (Range<'a>, Range<'a>) {
         let (a, b) = self.prims.split_at_mut(mid);
@@ -111,25 +107,25 @@ impl Slicer {
 }
 
 /// Leaves that `n` primitives fill.
-fn blocks(n: usize, leaf_size: usize) -> f32 {
-    n.div_ceil(leaf_size) as f32
+fn blocks(n: usize) -> f32 {
+    n.div_ceil(LEAF_SIZE) as f32
 }
 
 /// The cheapest cut along one axis: its cost, and the number of bins before it.
-fn best_cut(bins: &[Bin; BINS], leaf_size: usize) -> Option<(f32, usize)> {
+fn best_cut(bins: &[Bin; BINS]) -> Option<(f32, usize)> {
     let mut right = [0.0; BINS];
     let (mut b, mut n) = (Aabb::EMPTY, 0);
     for i in (1..BINS).rev() {
         b = b.union(bins[i].bounds);
         n += bins[i].count;
-        right[i] = if n == 0 { f32::INFINITY } else { b.half_area() * blocks(n, leaf_size) };
+        right[i] = if n == 0 { f32::INFINITY } else { b.half_area() * blocks(n) };
     }
     let mut best = None;
     (b, n) = (Aabb::EMPTY, 0);
     for i in 1..BINS {
         b = b.union(bins[i - 1].bounds);
         n += bins[i - 1].count;
-        let cost = b.half_area() * blocks(n, leaf_size) + right[i];
+        let cost = b.half_area() * blocks(n) + right[i];
         if n > 0 && cost < best.map_or(f32::INFINITY, |(c, _)| c) {
             best = Some((cost, i));
         }
@@ -140,8 +136,7 @@ fn best_cut(bins: &[Bin; BINS], leaf_size: usize) -> Option<(f32, usize)> {
 /// Cuts a range that is not a leaf in two parts, neither empty.
 pub(crate) fn best_split(range: Range, depth: u32) -> (Range, Range) {
     let n = range.prims.len();
-    let leaf_size = range.leaf_size();
-    if n <= leaf_size {
+    if n <= LEAF_SIZE {
         // Only the two sorts keep it from being a leaf.
         let mid = partition(range.prims, |p| !p.other);
         return range.split_at(mid);
@@ -151,7 +146,7 @@ pub(crate) fn best_split(range: Range, depth: u32) -> (Range, Range) {
     }
     let slicer = Slicer::new(range.centers2);
     let bins = if n > CHUNK { slicer.fill_parallel(range.prims) } else { slicer.fill(range.prims) };
-    let cuts = (0..3).filter_map(|axis| best_cut(&bins[axis], leaf_size).map(|(cost, i)| (cost, axis, i)));
+    let cuts = (0..3).filter_map(|axis| best_cut(&bins[axis]).map(|(cost, i)| (cost, axis, i)));
     let Some((_, axis, cut)) = cuts.min_by(|a, b| a.0.total_cmp(&b.0)) else {
         return range.split_at(n / 2);
     };

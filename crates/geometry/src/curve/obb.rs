@@ -114,7 +114,7 @@ impl ObbBlock {
 
     /// Origin and direction in block space, and the margin for their rounding errors.
     #[inline(always)]
-    fn to_block(&self, o: Vec3<f32>, d: Vec3<f32>) -> (Vec3<f32>, Vec3<f32>, f32) {
+    fn in_block(&self, o: Vec3<f32>, d: Vec3<f32>) -> (Vec3<f32>, Vec3<f32>, f32) {
         let o = o - Vec3::from(self.origin);
         // Rows are shorter than 222.
         let pad = 222.0
@@ -127,7 +127,7 @@ impl ObbBlock {
     /// The boxes met between 0 and `t_max`.
     #[inline(always)]
     pub(super) fn hit(&self, o: Vec3<f32>, d: Vec3<f32>, t_max: f32) -> Entries {
-        let (o, d, pad) = self.to_block(o, d);
+        let (o, d, pad) = self.in_block(o, d);
         #[cfg(target_arch = "x86_64")]
         if std::arch::is_x86_feature_detected!("avx2") {
             return avx2::hit(self, o, d, pad, t_max);
@@ -287,7 +287,7 @@ mod tests {
             let block = ObbBlock::around(&segments);
             let (o, d) = (rng.point() * 3.0, rng.point());
             let fast = block.hit(o, d, 5.0);
-            let (o, d, pad) = block.to_block(o, d);
+            let (o, d, pad) = block.in_block(o, d);
             let slow = block.hit_scalar(o, d, pad, 5.0);
             assert_eq!(fast.mask, slow.mask);
             for i in (0..WIDTH).filter(|i| slow.mask >> i & 1 == 1) {

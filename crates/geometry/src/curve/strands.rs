@@ -3,8 +3,8 @@
 use sparrow_math::Vec3;
 
 use super::cubic::Cubic;
-use crate::simd::prefetch;
 use crate::shape::{CurveBasis, CurveSet};
+use crate::simd::prefetch;
 
 /// The point before the first is mirrored: the segment begins its strand.
 const FIRST: u32 = 1 << 31;

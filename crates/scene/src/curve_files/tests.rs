@@ -1,3 +1,5 @@
+#![allow(clippy::float_cmp, reason = "the values are exact")]
+
 use std::io::Write;
 
 use super::*;
@@ -69,7 +71,9 @@ fn truncated_files_are_refused() {
     let whole = hair(31, &[3, 1, 5]);
     for n in 4..whole.len() {
         match at(&whole[..n], "a.hair") {
-            Err(e) => assert!(e.starts_with("a.hair: byte ") && e.ends_with("; export the strands again"), "{e}"),
+            Err(e) => {
+                assert!(e.starts_with("a.hair: byte ") && e.ends_with("; export the strands again"), "{e}")
+            }
             // Transparency and colour are not looked at.
             Ok(_) => assert!(n >= 128 + 6 + 12 * 12 + 12 * 4),
         }
@@ -104,7 +108,8 @@ fn strands_that_are_none_are_left_out() {
     let file = at(&b, "a.hair").unwrap();
     assert_eq!(file.strands, [0, 3]);
     assert_eq!(file.points.len(), 6);
-    let notes = ["1 strand of fewer than two points left out", "1 strand with numbers that are not finite left out"];
+    let notes =
+        ["1 strand of fewer than two points left out", "1 strand with numbers that are not finite left out"];
     assert_eq!(file.notes, notes);
 }
 
