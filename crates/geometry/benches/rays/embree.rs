@@ -145,7 +145,8 @@ impl Embree {
         unsafe {
             let device = function!(library, rtcNewDevice, (*const c_char) -> Object)(config.as_ptr());
             let monitor = function!(
-                library, rtcSetDeviceMemoryMonitorFunction,
+                library,
+                rtcSetDeviceMemoryMonitorFunction,
                 (Object, extern "C" fn(*mut c_void, isize, bool) -> bool, *mut c_void)
             );
             monitor(device, count, std::ptr::null_mut());
@@ -155,7 +156,8 @@ impl Embree {
             let geometry = function!(library, rtcNewGeometry, (Object, i32) -> Object)(device, TRIANGLES);
             function!(library, rtcSetGeometryBuildQuality, (Object, i32))(geometry, s.quality);
             let share = function!(
-                library, rtcSetSharedGeometryBuffer,
+                library,
+                rtcSetSharedGeometryBuffer,
                 (Object, i32, u32, i32, *const c_void, usize, usize, usize)
             );
             share(geometry, VERTEX_BUFFER, 0, FLOAT3, p.as_ptr().cast(), 0, 12, mesh.p.len());
@@ -166,7 +168,11 @@ impl Embree {
             let (start, held) = (cpu_seconds(), HELD.load(Relaxed));
             function!(library, rtcCommitScene, (Object))(scene);
             let (seconds, bytes) = (cpu_seconds() - start, HELD.load(Relaxed) - held);
-            assert_eq!(function!(library, rtcGetDeviceError, (Object) -> i32)(device), 0, "Embree refused the scene");
+            assert_eq!(
+                function!(library, rtcGetDeviceError, (Object) -> i32)(device),
+                0,
+                "Embree refused the scene"
+            );
             println!("  {} built in {seconds:.3} s: {:.1} MB without the mesh", s.name, 1e-6 * bytes as f64);
             Embree { name: s.name, device, scene, library, _shared: (p, indices) }
         }
@@ -179,7 +185,8 @@ impl Tracer for Embree {
     }
     fn closest(&self, rays: &[Ray], out: &mut [(f32, u32)]) {
         // SAFETY: as in `new`.
-        let intersect = unsafe { function!(self.library, rtcIntersect1, (Object, *mut RtcRayHit, *const c_void)) };
+        let intersect =
+            unsafe { function!(self.library, rtcIntersect1, (Object, *mut RtcRayHit, *const c_void)) };
         for (ray, out) in rays.iter().zip(out) {
             let mut r = RtcRayHit::new(ray);
             intersect(self.scene, &raw mut r, null());

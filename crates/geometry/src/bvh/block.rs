@@ -3,7 +3,10 @@
 //! Watertight [Woop2013]: the ray is sheared to the z axis, and the signs of the three edge functions decide. Two
 //! triangles that share an edge see the same products there, so no ray passes between them.
 
-#![allow(unsafe_code, reason = "says that the bytes of a type are numbers, so that it can lie in mapped pages")]
+#![allow(
+    unsafe_code,
+    reason = "says that the bytes of a type are numbers, so that it can lie in mapped pages"
+)]
 
 use bytemuck::{Pod, Zeroable};
 use sparrow_math::Vec3;

@@ -7,8 +7,8 @@ use sparrow_math::{Aabb, Vec3, vec3};
 
 use super::block::{LEAF_SIZE, TriBlock};
 use super::node::{Child, Kind, Node, WIDTH};
-use super::split::{Range, best_split};
 use super::pages::Pages;
+use super::split::{Range, best_split};
 use super::{Bvh, OtherBlock, UNUSED};
 use crate::simd::Unit;
 
@@ -42,7 +42,10 @@ impl PrimRef {
 
 /// A leaf before its block exists: first place and length, in the list of primitives.
 fn pending_leaf(r: &Range) -> Child {
-    Child::new(if r.prims[0].other { Kind::Others } else { Kind::Triangles }, r.first << 3 | (r.prims.len() - 1))
+    Child::new(
+        if r.prims[0].other { Kind::Others } else { Kind::Triangles },
+        r.first << 3 | (r.prims.len() - 1),
+    )
 }
 
 /// The same child, once `by` nodes were put before the nodes it counts among.

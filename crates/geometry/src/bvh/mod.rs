@@ -12,9 +12,9 @@ mod split;
 mod stack;
 mod traverse;
 
+use block::LEAF_SIZE;
 pub(crate) use block::{RawHit, TriBlock, gamma};
 pub(crate) use build::PrimRef;
-use block::LEAF_SIZE;
 use node::{Child, Node};
 use pages::Pages;
 pub(crate) use traverse::Others;

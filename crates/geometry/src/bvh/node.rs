@@ -1,6 +1,9 @@
 //! The tree's parts: [`Node`] and its [`Child`]ren.
 
-#![allow(unsafe_code, reason = "says that the bytes of a type are numbers, so that it can lie in mapped pages")]
+#![allow(
+    unsafe_code,
+    reason = "says that the bytes of a type are numbers, so that it can lie in mapped pages"
+)]
 
 use bytemuck::{Pod, Zeroable};
 
@@ -92,8 +95,8 @@ impl Node {
     pub(crate) fn hit<S: Simd>(&self, r: &RayData<S>, t_max: S::F8) -> (u32, S::F8) {
         let near = |a: usize| (r.o[a] - S::F8::load(&self.bounds[a][r.neg[a] & 1])) * r.minus_inv_near[a];
         let far = |a: usize| (r.o[a] - S::F8::load(&self.bounds[a][1 - (r.neg[a] & 1)])) * r.minus_inv_far[a];
-        let t0 = near(0).max(near(1)).max(near(2).max(S::F8::splat(0.0)));
-        let t1 = far(0).min(far(1)).min(far(2).min(t_max));
+        let t0 = near(0).max_nonneg(near(1)).max_nonneg(near(2).max_nonneg(S::F8::splat(0.0)));
+        let t1 = far(0).min_nonneg(far(1)).min_nonneg(far(2).min_nonneg(t_max));
         (t0.le(t1), t0)
     }
 }

@@ -34,7 +34,13 @@ fn ahead(blocks: &Blocks, child: Child) {
 
 /// Goes on to the nearest child met, one of `mask`, and puts the others on the stack.
 #[inline(always)]
-fn descend<const ANY: bool>(blocks: &Blocks, stack: &mut Stack, node: &Node, mut mask: u32, t: &[f32; WIDTH]) -> Child {
+fn descend<const ANY: bool>(
+    blocks: &Blocks,
+    stack: &mut Stack,
+    node: &Node,
+    mut mask: u32,
+    t: &[f32; WIDTH],
+) -> Child {
     let mut next = || {
         let i = mask.trailing_zeros() as usize & (WIDTH - 1);
         mask &= mask - 1;
@@ -57,7 +63,9 @@ fn descend<const ANY: bool>(blocks: &Blocks, stack: &mut Stack, node: &Node, mut
             near = e.min(near);
         }
     }
-    if !ANY { stack.sort_from(bottom); }
+    if !ANY {
+        stack.sort_from(bottom);
+    }
     near.child()
 }
 
