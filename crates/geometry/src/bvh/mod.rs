@@ -8,13 +8,13 @@ mod build;
 mod node;
 mod pages;
 mod ray_data;
-mod split;
 mod stack;
 mod traverse;
 
 use block::LEAF_SIZE;
 pub(crate) use block::{RawHit, TriBlock, gamma};
 pub(crate) use build::PrimRef;
+pub(crate) use node::Kind;
 use node::{Child, Node};
 use pages::Pages;
 pub(crate) use traverse::Others;
@@ -39,8 +39,6 @@ pub(crate) struct Bvh {
     triangles: Pages<TriBlock>,
     others: Vec<OtherBlock>,
     root: Child,
-    /// Entries the stack of a traversal may need.
-    stack: usize,
     bounds: Aabb,
     /// What queries run on.
     unit: Unit,

@@ -6,6 +6,7 @@
 )]
 
 use bytemuck::{Pod, Zeroable};
+use sparrow_math::Aabb;
 
 use super::ray_data::RayData;
 use crate::simd::{Floats, Simd};
@@ -75,7 +76,7 @@ pub(crate) struct Node {
     pub(crate) bounds: [[[f32; WIDTH]; 2]; 3],
     /// The children; unused ones come last.
     pub(crate) child: [Child; WIDTH],
-    pub(super) spare: [u32; 8],
+    spare: [u32; 8],
 }
 
 // SAFETY: numbers without gaps between them.
@@ -88,6 +89,14 @@ impl Node {
     pub(crate) fn empty() -> Node {
         let none = [[f32::INFINITY; WIDTH], [f32::NEG_INFINITY; WIDTH]];
         Node { bounds: [none; 3], child: [Child::NONE; WIDTH], spare: [0; 8] }
+    }
+
+    /// Fills a slot.
+    pub(crate) fn set(&mut self, i: usize, b: Aabb, child: Child) {
+        for (axis, [lo, hi]) in self.bounds.iter_mut().enumerate() {
+            (lo[i], hi[i]) = (b.lo[axis], b.hi[axis]);
+        }
+        self.child[i] = child;
     }
 
     /// The boxes met between 0 and `t_max`, one bit each, and where the ray enters them.
