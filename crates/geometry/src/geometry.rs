@@ -84,7 +84,9 @@ impl Body {
                 for i in 0..m.len() as u32 {
                     let parts = m.parts(i);
                     dropped += usize::from(parts.is_empty());
-                    out.extend(parts.iter().map(|&(id, b, other)| PrimRef::new(first + id, b, if other { Kind::Others } else { Kind::Triangles })));
+                    out.extend(parts.iter().map(|&(id, b, other)| {
+                        PrimRef::new(first + id, b, if other { Kind::Others } else { Kind::Triangles })
+                    }));
                 }
                 dropped
             }

@@ -75,11 +75,7 @@ impl Slicer {
         let scale = |e: f32| if e > 0.0 && e.is_finite() { n as f32 * (1.0 - 1e-5) / e } else { 0.0 };
         let [x, y, z, _] = (centers2.hi - centers2.lo).to_array();
         let [a, b, c, _] = centers2.lo.to_array();
-        Slicer {
-            lo: f32x4::new([a, b, c, 0.0]),
-            scale: f32x4::new([scale(x), scale(y), scale(z), 0.0]),
-            n,
-        }
+        Slicer { lo: f32x4::new([a, b, c, 0.0]), scale: f32x4::new([scale(x), scale(y), scale(z), 0.0]), n }
     }
     /// The bins of a primitive along the three axes; what is not a number goes to some bin.
     #[inline(always)]
@@ -143,8 +139,7 @@ impl Cut {
     }
     fn along(axis: usize, bins: &Bins, slicer: Slicer) -> Option<Cut> {
         let none = Bin { bounds: Box4::EMPTY, count: 0 };
-        let add =
-            |a: Bin, b: &Bin| Bin { bounds: a.bounds.union(b.bounds), count: a.count + b.count };
+        let add = |a: Bin, b: &Bin| Bin { bounds: a.bounds.union(b.bounds), count: a.count + b.count };
         let cost = |b: &Bin| b.bounds.half_area() * blocks(b.count);
         let mut right = [none; BINS];
         let mut sum = none;

@@ -36,8 +36,7 @@ pub(super) struct Plan<'a> {
 
 impl<'a> Plan<'a> {
     pub(super) fn new(tree: &'a Binary) -> Plan<'a> {
-        let none =
-            Costs { at_most: [0.0; WIDTH - 1], left: [0; WIDTH - 1], left_of_node: 0, is_leaf: true };
+        let none = Costs { at_most: [0.0; WIDTH - 1], left: [0; WIDTH - 1], left_of_node: 0, is_leaf: true };
         let mut costs = vec![none; tree.nodes.len()];
         // Children come after their parents in the list.
         for (i, node) in tree.nodes.iter().enumerate().rev() {
@@ -132,6 +131,9 @@ impl Wide {
         self.nodes.push(Node::empty());
         let mut children = Vec::with_capacity(WIDTH);
         plan.children(at, first, &mut children);
+        // Large boxes first: that is where a ray that looks for any hit goes first.
+        let area = |&(at, _): &(usize, usize)| plan.tree.nodes[at].bounds.half_area();
+        children.sort_by(|a, b| area(b).total_cmp(&area(a)));
         let stack = stack + children.len() - 1;
         self.stack = self.stack.max(stack);
         for (slot, (at, first)) in children.into_iter().enumerate() {
