@@ -26,9 +26,9 @@ struct Blocks<'a> {
 fn ahead(blocks: &Blocks, child: Child) {
     let i = child.index();
     if !child.is_leaf() {
-        prefetch(&blocks.nodes, i);
+        prefetch(blocks.nodes, i);
     } else {
-        prefetch(&blocks.triangles, i);
+        prefetch(blocks.triangles, i);
     }
 }
 
