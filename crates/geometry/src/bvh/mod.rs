@@ -1,7 +1,7 @@
 //! The bounding volume hierarchy: [`Bvh`].
 //!
-//! A tree with eight children a node. Leaves hold up to four triangles, gathered side by side, or up to four
-//! numbers of other primitives, which the owner of the tree tests itself.
+//! A tree with eight children a node. Leaves hold up to eight triangles, gathered side by side, or the number of one
+//! other primitive, which the owner of the tree tests itself.
 
 mod block;
 mod build;
@@ -11,7 +11,6 @@ mod ray_data;
 mod stack;
 mod traverse;
 
-use block::LEAF_SIZE;
 pub(crate) use block::{RawHit, TriBlock, gamma};
 pub(crate) use build::PrimRef;
 pub(crate) use node::Kind;
@@ -26,18 +25,11 @@ use crate::simd::Unit;
 /// Primitives a tree can number.
 pub(crate) const MAX_PRIMS: usize = 1 << 28;
 
-/// Marks an unused place of a leaf.
-const UNUSED: u32 = u32::MAX;
-
-/// A leaf of primitives that are not triangles.
-type OtherBlock = [u32; LEAF_SIZE];
-
 /// The hierarchy over primitives that are known by number.
 #[derive(Debug)]
 pub(crate) struct Bvh {
     nodes: Pages<Node>,
     triangles: Pages<TriBlock>,
-    others: Vec<OtherBlock>,
     root: Child,
     bounds: Aabb,
     /// What queries run on.
@@ -52,8 +44,6 @@ impl Bvh {
         self.nodes.len()
     }
     pub(crate) fn bytes(&self) -> usize {
-        self.nodes.len() * size_of::<Node>()
-            + self.triangles.len() * size_of::<TriBlock>()
-            + self.others.len() * size_of::<OtherBlock>()
+        self.nodes.len() * size_of::<Node>() + self.triangles.len() * size_of::<TriBlock>()
     }
 }

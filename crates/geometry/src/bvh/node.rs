@@ -20,7 +20,7 @@ pub(crate) enum Kind {
     Node,
     /// A leaf: a block of triangles.
     Triangles,
-    /// A leaf: a block of numbers of other primitives.
+    /// A leaf: one other primitive, whose place is its number.
     Others,
 }
 
@@ -52,7 +52,7 @@ impl Child {
     pub(crate) fn is_leaf(self) -> bool {
         self.0 & LEAF != 0
     }
-    /// It is a leaf of other primitives; asked of leaves alone.
+    /// It is another primitive; asked of leaves alone.
     #[inline(always)]
     pub(crate) fn is_others(self) -> bool {
         self.0 & KIND == OTHERS

@@ -2,7 +2,7 @@
 
 use super::super::block::LEAF_SIZE;
 use super::super::node::Kind;
-use super::bins::{Cut, Range};
+use super::bins::Range;
 use super::prim::{Box4, PrimRef};
 
 /// Below this size a subtree is built by one thread.
@@ -16,9 +16,20 @@ pub(super) enum Kinds {
 }
 
 impl Kinds {
-    pub(super) fn of(prims: &[PrimRef]) -> Kinds {
+    /// Of as many as fit a leaf; more count as mixed.
+    pub(super) fn of_few(prims: &[PrimRef]) -> Kinds {
         let first = prims[0].kind();
-        if prims.iter().all(|p| p.kind() == first) { Kinds::One(first) } else { Kinds::Mixed }
+        let one = prims.len() <= LEAF_SIZE && prims.iter().all(|p| p.kind() == first);
+        if one { Kinds::One(first) } else { Kinds::Mixed }
+    }
+    /// That many make a leaf.
+    pub(super) fn fit(self, n: usize) -> bool {
+        match self {
+            Kinds::One(Kind::Triangles) => n <= LEAF_SIZE,
+            // Nothing tests the boxes of other primitives in a leaf, so each has one of its own.
+            Kinds::One(_) => n == 1,
+            Kinds::Mixed => false,
+        }
     }
     fn and(self, o: Kinds) -> Kinds {
         if self == o { self } else { Kinds::Mixed }
@@ -81,17 +92,11 @@ impl Binary {
     /// The tree over a range, cut by the surface area heuristic.
     pub(super) fn add(&mut self, range: Range, depth: u32) {
         let (n, bounds) = (range.prims.len(), range.extent.bounds);
-        let small = n <= LEAF_SIZE;
-        let kinds = if small { Kinds::of(range.prims) } else { Kinds::Mixed };
-        if let (true, Kinds::One(_)) = (small, kinds) {
+        let kinds = Kinds::of_few(range.prims);
+        if kinds.fit(n) {
             return self.leaf(range.prims, bounds, kinds);
         }
-        let parts = if small {
-            range.split_kinds()
-        } else {
-            let cut = Cut::best(range.prims, &range.extent, depth);
-            range.split(cut)
-        };
+        let parts = range.split_best(depth);
         self.inner(bounds, n > PARALLEL, parts, |tree, side| match side {
             Side::Left(part) | Side::Right(part) => tree.add(part, depth + 1),
         });

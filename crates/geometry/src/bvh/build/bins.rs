@@ -179,8 +179,16 @@ impl<'a> Range<'a> {
         let (left, right) = (Extent::of(a), Extent::of(b));
         (Range { prims: a, extent: left }, Range { prims: b, extent: right })
     }
-    /// Cuts between the kinds of primitives.
-    pub(super) fn split_kinds(self) -> (Range<'a>, Range<'a>) {
+    /// Cuts a range that is no leaf: few primitives between their kinds, more where it costs least.
+    pub(super) fn split_best(self, depth: u32) -> (Range<'a>, Range<'a>) {
+        let first = self.prims[0].kind();
+        if self.prims.len() <= LEAF_SIZE && self.prims.iter().any(|p| p.kind() != first) {
+            return self.split_kinds();
+        }
+        let cut = Cut::best(self.prims, &self.extent, depth);
+        self.split(cut)
+    }
+    fn split_kinds(self) -> (Range<'a>, Range<'a>) {
         let (mut left, mut right) = (Extent::EMPTY, Extent::EMPTY);
         let first = self.prims[0].kind();
         let mid = partition(self.prims, &mut left, &mut right, |p| p.kind() == first);

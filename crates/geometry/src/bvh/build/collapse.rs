@@ -1,6 +1,5 @@
 //! From the binary tree to the wide one, at the least cost that its cuts allow: [`Plan`]. [Ylitie2017, section 3.1]
 
-use super::super::block::LEAF_SIZE;
 use super::super::node::{Child, Kind, Node, WIDTH};
 use super::binary::{Binary, BinaryNode, Kinds};
 
@@ -17,15 +16,9 @@ struct Costs {
     is_leaf: bool,
 }
 
-/// Cost of testing the primitives of a leaf; infinite where they do not fit.
+/// Cost of testing the primitives of a leaf; infinite where they do not fit one.
 fn leaf_cost(node: &BinaryNode) -> f32 {
-    match node.kinds {
-        Kinds::One(Kind::Others) if node.count <= 4 => 1.5 * node.count as f32,
-        Kinds::One(Kind::Triangles) if node.count as usize <= LEAF_SIZE => 1.0,
-        // A leaf of the binary tree cannot be cut again.
-        Kinds::One(_) | Kinds::Mixed if node.right == 0 => node.count as f32,
-        Kinds::One(_) | Kinds::Mixed => f32::INFINITY,
-    }
+    if node.kinds.fit(node.count as usize) { 1.0 } else { f32::INFINITY }
 }
 
 /// The best way to make each subtree part of a wide tree.
@@ -108,9 +101,8 @@ impl<'a> Plan<'a> {
 #[derive(Default)]
 pub(super) struct Wide {
     pub(super) nodes: Vec<Node>,
-    /// First place and length among the numbers of primitives, for each block.
+    /// First place and length among the numbers of primitives, for each block of triangles.
     pub(super) triangles: Vec<(u32, u8)>,
-    pub(super) others: Vec<(u32, u8)>,
     /// Entries the stack of a traversal may need.
     pub(super) stack: usize,
 }
@@ -120,12 +112,11 @@ impl Wide {
     pub(super) fn add(&mut self, plan: &Plan, at: usize, first: usize, stack: usize) -> Child {
         let node = &plan.tree.nodes[at];
         if plan.is_leaf(at) {
-            let (list, kind) = match node.kinds {
-                Kinds::One(Kind::Others) => (&mut self.others, Kind::Others),
-                Kinds::One(_) | Kinds::Mixed => (&mut self.triangles, Kind::Triangles),
-            };
-            list.push((first as u32, node.count as u8));
-            return Child::new(kind, list.len() - 1);
+            if node.kinds == Kinds::One(Kind::Others) {
+                return Child::new(Kind::Others, plan.tree.ids[first] as usize);
+            }
+            self.triangles.push((first as u32, node.count as u8));
+            return Child::new(Kind::Triangles, self.triangles.len() - 1);
         }
         let i = self.nodes.len();
         self.nodes.push(Node::empty());

@@ -16,11 +16,11 @@ use self::bins::{Extent, Range};
 use self::collapse::{Plan, Wide};
 pub(crate) use self::prim::PrimRef;
 use self::spatial::{References, Spatial};
-use super::block::{LEAF_SIZE, TriBlock};
+use super::Bvh;
+use super::block::TriBlock;
 use super::node::Child;
 use super::pages::Pages;
 use super::stack::STACK_SIZE;
-use super::{Bvh, UNUSED};
 use crate::simd::Unit;
 
 /// Where the surface of all primitives' boxes is more than this many times that of the box around them, primitives may be cut.
@@ -40,8 +40,8 @@ impl Bvh {
     pub(crate) fn build(mut prims: Vec<PrimRef>, corners: impl Fn(u32) -> [[f32; 3]; 3] + Sync) -> Bvh {
         let unit = Unit::choose();
         if prims.is_empty() {
-            let (nodes, triangles, others) = (Pages::zeroed(0), Pages::zeroed(0), Vec::new());
-            return Bvh { nodes, triangles, others, root: Child::NONE, bounds: Aabb::EMPTY, unit };
+            let (nodes, triangles) = (Pages::zeroed(0), Pages::zeroed(0));
+            return Bvh { nodes, triangles, root: Child::NONE, bounds: Aabb::EMPTY, unit };
         }
         let extent = Extent::of(&prims);
         let mut tree = Binary::default();
@@ -58,23 +58,17 @@ impl Bvh {
         let root = wide.add(&Plan::new(&tree), 0, 0, 0);
         debug_assert!(wide.stack <= STACK_SIZE, "depth is limited");
 
-        let ids_of = |&(first, len): &(u32, u8)| &tree.ids[first as usize..first as usize + usize::from(len)];
         let mut triangles = Pages::zeroed(wide.triangles.len());
         triangles.par_iter_mut().zip(&wide.triangles).for_each(|(block, place)| {
             *block = TriBlock::empty();
-            for (i, &id) in ids_of(place).iter().enumerate() {
+            let &(first, len) = place;
+            let ids = &tree.ids[first as usize..first as usize + usize::from(len)];
+            for (i, &id) in ids.iter().enumerate() {
                 block.set(i, id, &corners(id));
             }
         });
-        let other = |place| {
-            let mut block = [UNUSED; LEAF_SIZE];
-            let ids = ids_of(place);
-            block[..ids.len()].copy_from_slice(ids);
-            block
-        };
-        let others = wide.others.iter().map(other).collect();
         let mut nodes = Pages::zeroed(wide.nodes.len());
         nodes.copy_from_slice(&wide.nodes);
-        Bvh { nodes, triangles, others, root, bounds: extent.bounds.to_aabb(), unit }
+        Bvh { nodes, triangles, root, bounds: extent.bounds.to_aabb(), unit }
     }
 }

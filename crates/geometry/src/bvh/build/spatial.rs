@@ -203,16 +203,10 @@ impl<C: Fn(u32) -> [[f32; 3]; 3] + Sync> Spatial<'_, C> {
                 Side::Left((r, e)) | Side::Right((r, e)) => self.add(tree, r, e, depth + 1),
             });
         }
-        if n <= LEAF_SIZE && Kinds::of(&r.prims) != Kinds::Mixed || r.spare == 0 {
+        if Kinds::of_few(&r.prims).fit(n) || r.spare == 0 {
             return tree.add(Range { prims: &mut r.prims, extent }, depth);
         }
-        let range = Range { prims: &mut r.prims, extent };
-        let (left, right) = if n <= LEAF_SIZE {
-            range.split_kinds()
-        } else {
-            let cut = Cut::best(range.prims, &range.extent, depth);
-            range.split(cut)
-        };
+        let (left, right) = Range { prims: &mut r.prims, extent }.split_best(depth);
         let spare_left = (r.spare as u64 * left.prims.len() as u64 / n as u64) as usize;
         let part = |p: Range, spare| (References { prims: p.prims.to_vec(), spare }, p.extent);
         let parts = (part(left, spare_left), part(right, r.spare - spare_left));
