@@ -5,7 +5,7 @@ use std::time::Instant;
 use rayon::prelude::*;
 use sparrow_math::{Aabb, Vec3};
 
-use crate::bvh::{Bvh, MAX_PRIMS, Others, PrimRef, RawHit};
+use crate::bvh::{Bvh, Kind, MAX_PRIMS, Others, PrimRef, RawHit};
 use crate::curve::Curves;
 use crate::patch::Patches;
 use crate::point::{ShapeSample, SurfacePoint};
@@ -81,7 +81,7 @@ impl Body {
         let before = out.len();
         match self {
             Body::Triangles(m) => {
-                let one = |i: u32| m.bounds(i).map(|b| PrimRef::new(first + i, b, false));
+                let one = |i: u32| m.bounds(i).map(|b| PrimRef::new(first + i, b, Kind::Triangles));
                 out.par_extend((0..m.len() as u32).into_par_iter().filter_map(one));
                 m.len() - (out.len() - before)
             }
@@ -90,17 +90,19 @@ impl Body {
                 for i in 0..m.len() as u32 {
                     let parts = m.parts(i);
                     dropped += usize::from(parts.is_empty());
-                    out.extend(parts.iter().map(|&(id, b, other)| PrimRef::new(first + id, b, other)));
+                    out.extend(parts.iter().map(|&(id, b, other)| {
+                        PrimRef::new(first + id, b, if other { Kind::Others } else { Kind::Triangles })
+                    }));
                 }
                 dropped
             }
             Body::Curves(c) => {
-                let block = |(i, &b): (usize, &Aabb)| PrimRef::new(first + i as u32, b, true);
+                let block = |(i, &b): (usize, &Aabb)| PrimRef::new(first + i as u32, b, Kind::Others);
                 out.extend(c.blocks().iter().enumerate().map(block));
                 c.dropped()
             }
             Body::Quadric(Some(q)) => {
-                out.push(PrimRef::new(first, q.bounds(), true));
+                out.push(PrimRef::new(first, q.bounds(), Kind::Others));
                 0
             }
             Body::Quadric(None) => 1,

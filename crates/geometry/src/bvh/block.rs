@@ -3,7 +3,10 @@
 //! Watertight [Woop2013]: the ray is sheared to the z axis, and the signs of the three edge functions decide. Two
 //! triangles that share an edge see the same products there, so no ray passes between them.
 
-#![allow(unsafe_code, reason = "says that the bytes of a type are numbers, so that it can lie in mapped pages")]
+#![allow(
+    unsafe_code,
+    reason = "says that the bytes of a type are numbers, so that it can lie in mapped pages"
+)]
 
 use bytemuck::{Pod, Zeroable};
 use sparrow_math::Vec3;
@@ -88,15 +91,15 @@ impl TriBlock {
         }
     }
 
-    /// Offers every point of the ray before `t_max` to `found`, which answers with the new `t_max`.
+    /// Offers every point of the ray before `t_max` to `found`, which answers with the new `t_max`; returns the last of them.
     #[inline(always)]
     pub(crate) fn hit<S: Simd>(
         &self,
         ray: &Ray,
         r: &RayData<S>,
         mut t_max: f32,
-        mut found: impl FnMut(RawHit) -> f32,
-    ) {
+        found: &mut impl FnMut(RawHit) -> f32,
+    ) -> f32 {
         let p @ [a, b, c] = [sheared(&self.p[0], r), sheared(&self.p[1], r), sheared(&self.p[2], r)];
         let u = c[0] * b[1] - c[1] * b[0];
         let v = a[0] * c[1] - a[1] * c[0];
@@ -105,13 +108,13 @@ impl TriBlock {
         let (least, greatest) = (u.min(v).min(w), u.max(v).max(w));
         let inside = zero.le(least) | greatest.le(zero);
         if inside == 0 {
-            return;
+            return t_max;
         }
         let inv = LeafFloats::<S>::splat(1.0) / (u + v + w);
         let t = (u * a[2] + v * b[2] + w * c[2]) * r.s[2] * inv;
         let mut mask = inside & zero.lt(t) & t.lt(LeafFloats::<S>::splat(t_max));
         if mask == 0 {
-            return;
+            return t_max;
         }
         // No edge function is zero, and `t` is beyond its error.
         let settled = (zero.lt(least) | greatest.lt(zero)) & t_error::<S>(&p, &[u, v, w], inv, r.s[2]).lt(t);
@@ -130,6 +133,7 @@ impl TriBlock {
                 t_max = found(hit);
             }
         }
+        t_max
     }
 
     /// Decides in double precision what single precision left open of triangle `i`, its corners `p` in sheared space.

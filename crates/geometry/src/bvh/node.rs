@@ -1,8 +1,12 @@
 //! The tree's parts: [`Node`] and its [`Child`]ren.
 
-#![allow(unsafe_code, reason = "says that the bytes of a type are numbers, so that it can lie in mapped pages")]
+#![allow(
+    unsafe_code,
+    reason = "says that the bytes of a type are numbers, so that it can lie in mapped pages"
+)]
 
 use bytemuck::{Pod, Zeroable};
+use sparrow_math::Aabb;
 
 use super::ray_data::RayData;
 use crate::simd::{Floats, Simd};
@@ -16,7 +20,7 @@ pub(crate) enum Kind {
     Node,
     /// A leaf: a block of triangles.
     Triangles,
-    /// A leaf: a block of numbers of other primitives.
+    /// A leaf: one other primitive, whose place is its number.
     Others,
 }
 
@@ -48,7 +52,7 @@ impl Child {
     pub(crate) fn is_leaf(self) -> bool {
         self.0 & LEAF != 0
     }
-    /// It is a leaf of other primitives; asked of leaves alone.
+    /// It is another primitive; asked of leaves alone.
     #[inline(always)]
     pub(crate) fn is_others(self) -> bool {
         self.0 & KIND == OTHERS
@@ -72,7 +76,7 @@ pub(crate) struct Node {
     pub(crate) bounds: [[[f32; WIDTH]; 2]; 3],
     /// The children; unused ones come last.
     pub(crate) child: [Child; WIDTH],
-    pub(super) spare: [u32; 8],
+    spare: [u32; 8],
 }
 
 // SAFETY: numbers without gaps between them.
@@ -87,13 +91,21 @@ impl Node {
         Node { bounds: [none; 3], child: [Child::NONE; WIDTH], spare: [0; 8] }
     }
 
+    /// Fills a slot.
+    pub(crate) fn set(&mut self, i: usize, b: Aabb, child: Child) {
+        for (axis, [lo, hi]) in self.bounds.iter_mut().enumerate() {
+            (lo[i], hi[i]) = (b.lo[axis], b.hi[axis]);
+        }
+        self.child[i] = child;
+    }
+
     /// The boxes met between 0 and `t_max`, one bit each, and where the ray enters them.
     #[inline(always)]
     pub(crate) fn hit<S: Simd>(&self, r: &RayData<S>, t_max: S::F8) -> (u32, S::F8) {
         let near = |a: usize| (r.o[a] - S::F8::load(&self.bounds[a][r.neg[a] & 1])) * r.minus_inv_near[a];
         let far = |a: usize| (r.o[a] - S::F8::load(&self.bounds[a][1 - (r.neg[a] & 1)])) * r.minus_inv_far[a];
-        let t0 = near(0).max(near(1)).max(near(2).max(S::F8::splat(0.0)));
-        let t1 = far(0).min(far(1)).min(far(2).min(t_max));
+        let t0 = near(0).max_nonneg(near(1)).max_nonneg(near(2).max_nonneg(S::F8::splat(0.0)));
+        let t1 = far(0).min_nonneg(far(1)).min_nonneg(far(2).min_nonneg(t_max));
         (t0.le(t1), t0)
     }
 }

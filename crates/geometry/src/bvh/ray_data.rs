@@ -58,8 +58,16 @@ impl<S: Simd> RayData<S> {
             minus_inv_near: minus_inv(1.0 - PAD),
             minus_inv_far: minus_inv(1.0 + PAD),
             k: [kx, ky, kz],
-            o_k: [LeafFloats::<S>::splat(o[kx]), LeafFloats::<S>::splat(o[ky]), LeafFloats::<S>::splat(o[kz])],
-            s: [LeafFloats::<S>::splat(d[kx] * sz), LeafFloats::<S>::splat(d[ky] * sz), LeafFloats::<S>::splat(sz)],
+            o_k: [
+                LeafFloats::<S>::splat(o[kx]),
+                LeafFloats::<S>::splat(o[ky]),
+                LeafFloats::<S>::splat(o[kz]),
+            ],
+            s: [
+                LeafFloats::<S>::splat(d[kx] * sz),
+                LeafFloats::<S>::splat(d[ky] * sz),
+                LeafFloats::<S>::splat(sz),
+            ],
         })
     }
 }

@@ -1,10 +1,10 @@
 //! Rays through the tree.
 
+use super::Bvh;
 use super::block::{RawHit, TriBlock};
 use super::node::{Child, Node, WIDTH};
 use super::ray_data::RayData;
 use super::stack::{Entry, Stack};
-use super::{Bvh, UNUSED};
 use crate::ray::Ray;
 use crate::simd::{Floats, Kernel, Simd, prefetch};
 
@@ -26,15 +26,21 @@ struct Blocks<'a> {
 fn ahead(blocks: &Blocks, child: Child) {
     let i = child.index();
     if !child.is_leaf() {
-        prefetch(&blocks.nodes, i);
+        prefetch(blocks.nodes, i);
     } else {
-        prefetch(&blocks.triangles, i);
+        prefetch(blocks.triangles, i);
     }
 }
 
 /// Goes on to the nearest child met, one of `mask`, and puts the others on the stack.
 #[inline(always)]
-fn descend<const ANY: bool>(blocks: &Blocks, stack: &mut Stack, node: &Node, mut mask: u32, t: &[f32; WIDTH]) -> Child {
+fn descend<const ANY: bool>(
+    blocks: &Blocks,
+    stack: &mut Stack,
+    node: &Node,
+    mut mask: u32,
+    t: &[f32; WIDTH],
+) -> Child {
     let mut next = || {
         let i = mask.trailing_zeros() as usize & (WIDTH - 1);
         mask &= mask - 1;
@@ -57,19 +63,119 @@ fn descend<const ANY: bool>(blocks: &Blocks, stack: &mut Stack, node: &Node, mut
             near = e.min(near);
         }
     }
-    if !ANY { stack.sort_from(bottom); }
+    if !ANY {
+        stack.sort_from(bottom);
+    }
     near.child()
 }
 
-/// One query: a ray through a tree.
-struct Walk<'a, const ANY: bool, O, A> {
+/// Offers points of the ray before `t_max` to `found`, the nearest boxes first, or with `ANY` in whatever order is quick;
+/// `found` answers with the new `t_max`, which may be negative to end the search.
+#[inline(always)]
+fn walk<S: Simd, const ANY: bool>(
+    bvh: &Bvh,
+    ray: &Ray,
+    others: &impl Others,
+    mut found: impl FnMut(RawHit) -> f32,
+) {
+    let Some(r) = RayData::<S>::new(ray) else { return };
+    let blocks = Blocks { nodes: &bvh.nodes, triangles: &bvh.triangles };
+    let mut stack = Stack::new();
+    let (mut t_max, mut child) = (ray.t_max, bvh.root);
+    if child == Child::NONE {
+        return;
+    }
+    loop {
+        let t_limit = S::F8::splat(t_max);
+        while !child.is_leaf() {
+            let node = &blocks.nodes[child.index()];
+            let (mask, t) = node.hit(&r, t_limit);
+            if mask == 0 {
+                let Some(c) = stack.pop(t_max) else { return };
+                child = c;
+            } else {
+                child = descend::<ANY>(&blocks, &mut stack, node, mask, &t.to_array());
+            }
+        }
+        t_max = if child.is_others() {
+            others.hit(child.index() as u32, ray, t_max, &mut found)
+        } else {
+            blocks.triangles[child.index()].hit(ray, &r, t_max, &mut found)
+        };
+        if ANY && t_max < 0.0 {
+            return;
+        }
+        let Some(c) = stack.pop(t_max) else { return };
+        child = c;
+    }
+}
+
+/// One ray through a tree.
+struct Walk<'a, const ANY: bool, O, F> {
     bvh: &'a Bvh,
     ray: &'a Ray,
     others: &'a O,
+    found: F,
+}
+
+impl<const ANY: bool, O: Others, F: FnMut(RawHit) -> f32> Kernel for Walk<'_, ANY, O, F> {
+    type Output = ();
+    #[inline(always)]
+    fn run<S: Simd>(self) {
+        walk::<S, ANY>(self.bvh, self.ray, self.others, self.found);
+    }
+}
+
+/// The first point that `accept` takes, of those that a search offers; the nearest of all unless `ANY`.
+struct Best<A> {
     accept: A,
+    hit: Option<RawHit>,
+    t_max: f32,
+}
+
+impl<A: Fn(&RawHit) -> bool> Best<A> {
+    #[inline(always)]
+    fn offer<const ANY: bool>(&mut self, h: RawHit) -> f32 {
+        if (self.accept)(&h) {
+            self.t_max = if ANY { f32::NEG_INFINITY } else { h.t };
+            self.hit = Some(h);
+        }
+        self.t_max
+    }
+}
+
+/// Many rays through a tree: the vector unit is chosen once for all.
+struct Walks<'a, const ANY: bool, O, A, P> {
+    bvh: &'a Bvh,
+    rays: &'a [Ray],
+    others: &'a O,
+    accept: A,
+    put: P,
+}
+
+impl<const ANY: bool, O, A, P> Kernel for Walks<'_, ANY, O, A, P>
+where
+    O: Others,
+    A: Fn(&RawHit) -> bool,
+    P: FnMut(usize, Option<RawHit>),
+{
+    type Output = ();
+    #[inline(always)]
+    fn run<S: Simd>(mut self) {
+        for (i, ray) in self.rays.iter().enumerate() {
+            let mut best = Best { accept: &self.accept, hit: None, t_max: ray.t_max };
+            walk::<S, ANY>(self.bvh, ray, self.others, |h| best.offer::<ANY>(h));
+            (self.put)(i, best.hit);
+        }
+    }
 }
 
 impl Bvh {
+    /// Offers points of the ray before its end to `found`, which answers with the new end.
+    #[inline]
+    pub(crate) fn visit(&self, ray: &Ray, others: &impl Others, found: impl FnMut(RawHit) -> f32) {
+        self.unit.run(Walk::<false, _, _> { bvh: self, ray, others, found });
+    }
     /// The nearest point of the ray that `accept` takes; with `ANY`, the first one come across.
     #[inline]
     pub(crate) fn hit<const ANY: bool>(
@@ -78,56 +184,18 @@ impl Bvh {
         others: &impl Others,
         accept: impl Fn(&RawHit) -> bool,
     ) -> Option<RawHit> {
-        self.unit.run(Walk::<ANY, _, _> { bvh: self, ray, others, accept })
+        let mut best = Best { accept, hit: None, t_max: ray.t_max };
+        self.unit.run(Walk::<ANY, _, _> { bvh: self, ray, others, found: |h| best.offer::<ANY>(h) });
+        best.hit
     }
-}
-
-impl<const ANY: bool, O: Others, A: Fn(&RawHit) -> bool> Kernel for Walk<'_, ANY, O, A> {
-    type Output = Option<RawHit>;
-
-    #[inline(always)]
-    fn run<S: Simd>(self) -> Option<RawHit> {
-        let Walk { bvh, ray, others, accept } = self;
-        let r = RayData::<S>::new(ray)?;
-        let blocks = Blocks { nodes: &bvh.nodes, triangles: &bvh.triangles };
-        let mut stack = Stack::new();
-        let (mut best, mut t_max) = (None, ray.t_max);
-        let mut child = bvh.root;
-        if child == Child::NONE {
-            return None;
-        }
-        loop {
-            let t_limit = S::F8::splat(t_max);
-            while !child.is_leaf() {
-                let node = &blocks.nodes[child.index()];
-                let (mask, t) = node.hit(&r, t_limit);
-                if mask == 0 {
-                    let Some(c) = stack.pop(t_max) else { return best };
-                    child = c;
-                } else {
-                    child = descend::<ANY>(&blocks, &mut stack, node, mask, &t.to_array());
-                }
-            }
-            let mut limit = t_max;
-            let mut found = |h: RawHit| {
-                if accept(&h) {
-                    t_max = if ANY { f32::NEG_INFINITY } else { h.t };
-                    best = Some(h);
-                }
-                t_max
-            };
-            if child.is_others() {
-                for &id in bvh.others[child.index()].iter().filter(|&&id| id != UNUSED) {
-                    limit = others.hit(id, ray, limit, &mut found);
-                }
-            } else {
-                blocks.triangles[child.index()].hit(ray, &r, limit, found);
-            }
-            if ANY && best.is_some() {
-                return best;
-            }
-            let Some(c) = stack.pop(t_max) else { return best };
-            child = c;
-        }
+    /// The same for each ray of a list; `put` takes the answers in order.
+    pub(crate) fn hits<const ANY: bool>(
+        &self,
+        rays: &[Ray],
+        others: &impl Others,
+        accept: impl Fn(&RawHit) -> bool,
+        put: impl FnMut(usize, Option<RawHit>),
+    ) {
+        self.unit.run(Walks::<ANY, _, _, _> { bvh: self, rays, others, accept, put });
     }
 }

@@ -6,9 +6,10 @@
 #![allow(unsafe_code, reason = "vector registers; every operation is tested against f32")]
 
 use core::arch::x86_64::{
-    __m256, _CMP_LE_OQ, _CMP_LT_OQ, _MM_HINT_T0, _mm_prefetch, _mm256_add_ps, _mm256_andnot_ps, _mm256_cmp_ps, _mm256_div_ps,
-    _mm256_loadu_ps, _mm256_max_ps, _mm256_min_ps, _mm256_movemask_ps, _mm256_mul_ps, _mm256_set1_ps,
-    _mm256_storeu_ps, _mm256_sub_ps,
+    __m256, _CMP_LE_OQ, _CMP_LT_OQ, _MM_HINT_T0, _mm_prefetch, _mm256_add_ps, _mm256_andnot_ps,
+    _mm256_castps_si256, _mm256_castsi256_ps, _mm256_cmp_ps, _mm256_div_ps, _mm256_loadu_ps,
+    _mm256_max_epi32, _mm256_max_ps, _mm256_min_epi32, _mm256_min_ps, _mm256_movemask_ps, _mm256_mul_ps,
+    _mm256_set1_ps, _mm256_storeu_ps, _mm256_sub_ps,
 };
 use core::ops::{Add, Div, Mul, Sub};
 
@@ -100,6 +101,14 @@ impl Floats<8> for F8 {
     #[inline(always)]
     fn max(self, o: F8) -> F8 {
         F8(avx!(_mm256_max_ps(self.0, o.0)))
+    }
+    #[inline(always)]
+    fn min_nonneg(self, o: F8) -> F8 {
+        F8(avx!(_mm256_castsi256_ps(_mm256_min_epi32(_mm256_castps_si256(self.0), _mm256_castps_si256(o.0)))))
+    }
+    #[inline(always)]
+    fn max_nonneg(self, o: F8) -> F8 {
+        F8(avx!(_mm256_castsi256_ps(_mm256_max_epi32(_mm256_castps_si256(self.0), _mm256_castps_si256(o.0)))))
     }
     #[inline(always)]
     fn le(self, o: F8) -> u32 {

@@ -23,6 +23,16 @@ pub(crate) trait Floats<const N: usize>:
     fn min(self, o: Self) -> Self;
     /// The larger; either where one is NaN, `o` where both are zero.
     fn max(self, o: Self) -> Self;
+    /// The smaller where neither is negative, else something that is not positive.
+    #[inline(always)]
+    fn min_nonneg(self, o: Self) -> Self {
+        self.min(o)
+    }
+    /// The larger where one is positive or zero without sign, else something negative.
+    #[inline(always)]
+    fn max_nonneg(self, o: Self) -> Self {
+        self.max(o)
+    }
     /// Bit i says whether `self[i] <= o[i]`.
     fn le(self, o: Self) -> u32;
     /// Bit i says whether `self[i] < o[i]`.
