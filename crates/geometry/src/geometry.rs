@@ -164,6 +164,12 @@ impl Others for Bodies {
             Body::Triangles(_) | Body::Quadric(None) => t_max,
         }
     }
+    fn ahead(&self, id: u32) {
+        let (shape, local) = self.locate(id);
+        if let Body::Curves(c) = &self.bodies[shape as usize] {
+            c.ahead(local);
+        }
+    }
 }
 
 impl Geometry {

@@ -13,20 +13,25 @@ pub(crate) trait Others {
     /// Offers every point of the ray before `t_max` on primitive `id` to `found`, which answers with the new
     /// `t_max`; returns the last of them.
     fn hit(&self, id: u32, ray: &Ray, t_max: f32, found: &mut impl FnMut(RawHit) -> f32) -> f32;
+    /// Asks for what the test of primitive `id` will read.
+    fn ahead(&self, id: u32);
 }
 
 /// The lists that a ray reads.
-struct Blocks<'a> {
+struct Blocks<'a, O> {
+    others: &'a O,
     nodes: &'a [Node],
     triangles: &'a [TriBlock],
 }
 
 /// Asks for the data of a child ahead of its use.
 #[inline(always)]
-fn ahead(blocks: &Blocks, child: Child) {
+fn ahead(blocks: &Blocks<impl Others>, child: Child) {
     let i = child.index();
     if !child.is_leaf() {
         prefetch(blocks.nodes, i);
+    } else if child.is_others() {
+        blocks.others.ahead(i as u32);
     } else {
         prefetch(blocks.triangles, i);
     }
@@ -35,7 +40,7 @@ fn ahead(blocks: &Blocks, child: Child) {
 /// Goes on to the nearest child met, one of `mask`, and puts the others on the stack.
 #[inline(always)]
 fn descend<const ANY: bool>(
-    blocks: &Blocks,
+    blocks: &Blocks<impl Others>,
     stack: &mut Stack,
     node: &Node,
     mut mask: u32,
@@ -79,7 +84,7 @@ fn walk<S: Simd, const ANY: bool>(
     mut found: impl FnMut(RawHit) -> f32,
 ) {
     let Some(r) = RayData::<S>::new(ray) else { return };
-    let blocks = Blocks { nodes: &bvh.nodes, triangles: &bvh.triangles };
+    let blocks = Blocks { others, nodes: &bvh.nodes, triangles: &bvh.triangles };
     let mut stack = Stack::new();
     let (mut t_max, mut child) = (ray.t_max, bvh.root);
     if child == Child::NONE {

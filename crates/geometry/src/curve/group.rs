@@ -19,6 +19,8 @@ const MAX_DEPTH: u32 = 64;
 pub(super) struct Piece {
     /// The segment, and which of its parts.
     pub(super) id: u32,
+    /// Where the segment has its control points.
+    place: u32,
     bounds: Aabb,
 }
 
@@ -62,7 +64,7 @@ pub(super) fn pieces(strands: &Strands, split: u32) -> (Vec<Piece>, usize) {
         (0..if usable { n } else { 0 }).map(move |i| {
             let part = |i: u32| i as f32 / n as f32;
             let c = if n == 1 { whole } else { whole.part([part(i), part(i + 1)]) };
-            Piece { id: s << split | i, bounds: bounds(&c) }
+            Piece { id: s << split | i, place: strands.place_of(s), bounds: bounds(&c) }
         })
     };
     let all = 0..strands.n_segments() as u32;
@@ -81,7 +83,14 @@ fn cut(pieces: &mut [Piece], depth: u32, make: &(impl Fn(u32) -> Cubic + Sync)) 
     if n <= WIDTH {
         let around = pieces.iter().fold(Aabb::EMPTY, |b, p| b.union(p.bounds));
         let members: Vec<(u32, Cubic)> = pieces.iter().map(|p| (p.id, make(p.id))).collect();
-        return if n == 0 { Vec::new() } else { vec![(around, ObbBlock::around(&members))] };
+                if n == 0 {
+            return Vec::new();
+        }
+        let mut block = ObbBlock::around(&members);
+        for (to, p) in block.place.iter_mut().zip(pieces.iter()) {
+            *to = p.place;
+        }
+        return vec![(around, block)];
     }
     let mid = match best_cut(pieces) {
         Some((axis, lo, scale, cut)) if depth < MAX_DEPTH => {

@@ -20,6 +20,7 @@ use strip::Width;
 use crate::bvh::RawHit;
 use crate::ray::Ray;
 use crate::shape::{CurveKind, CurveSet};
+use crate::simd::prefetch;
 
 /// Parts of a segment at most, as a power of two.
 const MAX_SPLIT: u32 = 4;
@@ -86,6 +87,12 @@ impl Curves {
         &self.bounds
     }
 
+    /// Asks for a block ahead of its use.
+    #[inline(always)]
+    pub(crate) fn ahead(&self, block: u32) {
+        prefetch(&self.blocks, block as usize);
+    }
+
     /// Offers the points of the ray on the segments of a block, which the tree numbers from `first`; returns the last
     /// limit.
     pub(crate) fn hit(
@@ -99,10 +106,11 @@ impl Curves {
         in_lanes(BlockTest { curves: self, block: &self.blocks[block as usize], ray, first, t_max, found })
     }
 
-    /// The nearest point of the ray on part `u` of a segment.
+    /// The nearest point of the ray on piece `i` of a block.
     #[inline(always)]
-    fn hit_segment<R: Real>(&self, segment: u32, u: [f32; 2], r: &RayFrame, t_max: f32) -> Option<CurveHit> {
-        let c = self.strands.cubic(segment);
+    fn hit_piece<R: Real>(&self, block: &ObbBlock, i: usize, r: &RayFrame, t_max: f32) -> Option<CurveHit> {
+        let (segment, u) = part_of(block.id[i], self.split);
+        let c = self.strands.cubic_at(block.place[i]);
         let seen = RayCubic::new(&c, r);
         let pieces = Pieces::new(&seen, u, c.largest_radius());
         match self.kind {
@@ -120,7 +128,7 @@ impl Curves {
 
     /// Unit normals of a ribbon at the ends of a segment, and the angle between them.
     fn end_normals(&self, segment: u32) -> ([Vec3<f32>; 2], f32) {
-        let (strand, _, _) = self.strands.place(segment);
+        let (strand, _, _) = self.strands.in_strand(segment);
         let at = segment as usize + strand;
         let unit = |n: [f32; 3]| {
             let n = Vec3::from(n);
@@ -163,7 +171,7 @@ impl<F: FnMut(RawHit) -> f32> InLanes for BlockTest<'_, F> {
         while rest != 0 {
             let i = rest.trailing_zeros() as usize & (WIDTH - 1);
             rest &= rest - 1;
-            self.curves.strands.ahead(part_of(self.block.id[i], self.curves.split).0);
+            self.curves.strands.ahead(self.block.place[i]);
         }
         let r = RayFrame::new(self.ray);
         while mask != 0 {
@@ -179,8 +187,8 @@ impl<F: FnMut(RawHit) -> f32> InLanes for BlockTest<'_, F> {
             if t[i] > limit {
                 break;
             }
-            let (segment, u) = part_of(self.block.id[i], self.curves.split);
-            if let Some(h) = self.curves.hit_segment::<R>(segment, u, &r, limit) {
+            if let Some(h) = self.curves.hit_piece::<R>(self.block, i, &r, limit) {
+                let segment = self.block.id[i] >> self.curves.split;
                 limit = (self.found)(RawHit { t: h.t, id: self.first + segment, u: h.u, v: 0.5 + 0.5 * h.h });
             }
         }

@@ -1,7 +1,7 @@
 //! Eight oriented boxes, tested together: [`ObbBlock`].
 //!
 //! A box is the preimage of `lo..hi` under a map of its own, whose rows are nearly orthonormal and lie on a grid of
-//! 1/127; bounds are whole numbers in units of the block. 28 bytes a box.
+//! 1/127; bounds are whole numbers in units of the block. 32 bytes a box.
 
 use sparrow_math::{Vec3, vec3};
 
@@ -16,13 +16,15 @@ const PAD: f32 = 16.0 * f32::EPSILON;
 
 /// Eight oriented boxes with the numbers of what they hold. Unused places are never hit.
 #[derive(Clone, Copy, Debug)]
-#[repr(C, align(32))]
+#[repr(C, align(64))]
 pub(super) struct ObbBlock {
     /// `axes[row][column]`
     axes: [[[i8; WIDTH]; 3]; 3],
     /// `bounds[row]`: lower and upper faces.
     bounds: [[[i16; WIDTH]; 2]; 3],
     pub(super) id: [u32; WIDTH],
+    /// Where each has its control points.
+    pub(super) place: [u32; WIDTH],
     /// Where block space has its origin.
     origin: [f32; 3],
     /// Block space from world space: a factor.
@@ -80,6 +82,7 @@ impl ObbBlock {
             axes: [[[0; WIDTH]; 3]; 3],
             bounds: [NOWHERE.map(|b| [b; WIDTH]); 3],
             id: [u32::MAX; WIDTH],
+            place: [0; WIDTH],
             origin: origin.to_array(),
             scale,
             margin: 222.0 * PAD * scale * origin.abs().max_component(),

@@ -64,16 +64,26 @@ impl Strands {
     }
 
     /// The strand of a segment, and its place among those of the strand: which, and of how many.
-    pub(super) fn place(&self, segment: u32) -> (usize, u32, u32) {
+    pub(super) fn in_strand(&self, segment: u32) -> (usize, u32, u32) {
         let strand = self.first.partition_point(|&f| f <= segment) - 1;
         let (start, end) = (self.first[strand], self.first[strand + 1]);
         (strand, segment - start, end - start)
     }
 
     /// A segment in the common form.
-    #[inline(always)]
     pub(super) fn cubic(&self, segment: u32) -> Cubic {
-        let s = self.segments[segment as usize];
+        self.cubic_at(self.place_of(segment))
+    }
+
+    /// Where a segment has its control points.
+    #[inline(always)]
+    pub(super) fn place_of(&self, segment: u32) -> u32 {
+        self.segments[segment as usize]
+    }
+
+    /// The segment with its control points at that place.
+    #[inline(always)]
+    pub(super) fn cubic_at(&self, s: u32) -> Cubic {
         let i = (s & POINT) as usize;
         let p = match self.basis {
             CurveBasis::Linear => {
@@ -97,10 +107,10 @@ impl Strands {
         Cubic::new(self.basis, &p)
     }
 
-    /// Asks for the points of a segment ahead of their use.
+    /// Asks for the points at a place ahead of their use.
     #[inline(always)]
-    pub(super) fn ahead(&self, segment: u32) {
-        let i = (self.segments[segment as usize] & POINT) as usize;
+    pub(super) fn ahead(&self, place: u32) {
+        let i = (place & POINT) as usize;
         prefetch(&self.points, i);
         prefetch(&self.points, i + 3);
     }

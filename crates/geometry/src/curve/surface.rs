@@ -35,7 +35,7 @@ impl Curves {
     pub(crate) fn surface(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
         let cubic = self.strands.cubic(hit.prim);
         let c = cubic.at(f64::from(hit.u));
-        let (_, i, n) = self.strands.place(hit.prim);
+        let (_, i, n) = self.strands.in_strand(hit.prim);
         let d = ray.d.to_f64().normalized();
         let t = perpendicular(c.dp, Vec3::splat(0.0)).unwrap_or(d);
         let facing = perpendicular(-d, t).unwrap_or_else(|| sparrow_math::Frame::from_z(t).x);
