@@ -15,7 +15,7 @@ use crate::{images, names};
 /// Bytes of the hierarchy for each primitive, measured on our own scenes.
 const HIERARCHY_BYTES: u64 = 60;
 /// Bytes of the hierarchy for each segment of a curve, or part of one, measured likewise.
-const CURVE_HIERARCHY_BYTES: u64 = 48;
+const CURVE_HIERARCHY_BYTES: u64 = 43;
 /// Bytes of a sphere, disk or cylinder with its place in the hierarchy, measured likewise.
 const QUADRIC_BYTES: u64 = 360;
 

@@ -77,7 +77,7 @@ pub struct CurveSet {
     pub kind: CurveKind,
     /// Of ribbons: a normal for each end of a segment, one more a strand than it has segments. Else empty.
     pub normals: Vec<[f32; 3]>,
-    /// Every segment is cut into `2^split_depth` pieces with boxes of their own: faster, and larger. At most 4.
+    /// Every segment is cut into `2^split_depth` pieces with boxes of their own: faster, and larger. At most 2.
     pub split_depth: u8,
 }
 

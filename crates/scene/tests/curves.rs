@@ -35,7 +35,7 @@ fn near(a: [f32; 4], b: [f32; 4]) -> bool {
 #[test]
 fn defaults_are_those_of_pbrt() {
     let c = one(&format!("Shape \"curve\" {P4}"));
-    assert_eq!((c.basis, c.kind, c.split_depth), (CurveBasis::Bezier, CurveKind::Flat, 0));
+    assert_eq!((c.basis, c.kind, c.split_depth), (CurveBasis::Bezier, CurveKind::Flat, 1));
     assert_eq!((c.strands.as_slice(), c.n_segments()), ([0].as_slice(), 1));
     assert!(near(c.points[2], [2.0, 1.0, 0.0, 0.5]));
 }

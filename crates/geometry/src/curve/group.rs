@@ -83,7 +83,7 @@ fn cut(pieces: &mut [Piece], depth: u32, make: &(impl Fn(u32) -> Cubic + Sync)) 
     if n <= WIDTH {
         let around = pieces.iter().fold(Aabb::EMPTY, |b, p| b.union(p.bounds));
         let members: Vec<(u32, Cubic)> = pieces.iter().map(|p| (p.id, make(p.id))).collect();
-                if n == 0 {
+        if n == 0 {
             return Vec::new();
         }
         let mut block = ObbBlock::around(&members);

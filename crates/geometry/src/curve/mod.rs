@@ -23,7 +23,7 @@ use crate::shape::{CurveKind, CurveSet};
 use crate::simd::prefetch;
 
 /// Parts of a segment at most, as a power of two.
-const MAX_SPLIT: u32 = 4;
+const MAX_SPLIT: u32 = 2;
 /// Segments a set can number, parts included.
 const MAX_SEGMENTS: usize = 1 << 28;
 

@@ -180,7 +180,7 @@ fn compare(kind: CurveKind, first: impl Fn(&Bezier, V, V) -> Option<f64>) {
             worst = worst.max((nearest - found).abs());
         }
     }
-    println!("{kind:?}: {hits} hits, {differ} of {n} rays differ, else the worst error is {worst:e}");
+    eprintln!("{kind:?}: {hits} hits, {differ} of {n} rays differ, else the worst error is {worst:e}");
     assert!(hits > n / 3, "the rays are aimed badly");
     assert!(differ * 1000 <= n, "{differ} of {n} rays differ");
 }
@@ -210,7 +210,9 @@ fn strand(basis: CurveBasis) -> (Vec<[f32; 4]>, Vec<Bezier>) {
             CurveBasis::BSpline => {
                 [(a + b * 4.0 + c) / 6.0, (b * 2.0 + c) / 3.0, (b + c * 2.0) / 3.0, (b + c * 4.0 + d) / 6.0]
             }
-            _ => [b, b + (c - a) / 6.0, c - (d - b) / 6.0, c],
+            CurveBasis::CatmullRom | CurveBasis::Linear | CurveBasis::Bezier => {
+                [b, b + (c - a) / 6.0, c - (d - b) / 6.0, c]
+            }
         };
         Bezier { p, r: [0.02; 4] }
     };

@@ -27,8 +27,10 @@ const BASES: [(&str, CurveBasis); 4] = [
 
 /// Of the groom's size: the width of strands that nothing is said about.
 const WIDTH_OF_SIZE: f32 = 1e-3;
+/// Where the file says nothing: a fifth faster than none, for 1.5 times the memory.
+const DEFAULT_SPLIT: i32 = 1;
 /// Deeper splits cost memory and gain nothing.
-const MAX_SPLIT: i32 = 4;
+const MAX_SPLIT: i32 = 2;
 
 type Point = [f32; 3];
 
@@ -213,7 +215,7 @@ impl Builder {
     }
 
     fn split_depth(&mut self, params: &Params) -> u8 {
-        params.int("splitdepth").unwrap_or(0).clamp(0, MAX_SPLIT) as u8
+        params.int("splitdepth").unwrap_or(DEFAULT_SPLIT).clamp(0, MAX_SPLIT) as u8
     }
 
     /// The basis that the points are kept in, and the points.
