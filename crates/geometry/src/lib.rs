@@ -7,6 +7,7 @@
 
 mod bvh;
 mod geometry;
+mod instance;
 mod patch;
 mod point;
 mod quadric;
@@ -17,6 +18,7 @@ mod simd;
 mod triangle;
 
 pub use geometry::{BuildStats, Geometry};
+pub use instance::Instance;
 pub use point::{ShapeSample, SurfacePoint};
 pub use ray::{Hit, Ray};
 pub use shape::{BilinearMesh, Shape, ShapeInstance, TriangleMesh};

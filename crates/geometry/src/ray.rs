@@ -40,4 +40,6 @@ pub struct Hit {
     pub u: f32,
     /// Barycentric weight of the third corner; second parameter of a patch; 0 for quadrics.
     pub v: f32,
+    /// The instance it belongs to; none for shapes of the world.
+    pub instance: Option<u32>,
 }

@@ -2,6 +2,8 @@
 #![allow(clippy::unwrap_used, reason = "tests stop where something is missing")]
 
 mod build;
+mod exact;
+mod instances;
 mod rays;
 mod sampling;
 mod spawn;
