@@ -50,7 +50,10 @@ fn compare(n_rays: u32) {
             assert_eq!(geometry.occluded(&ray), exact.is_some(), "{ray:?}");
             if let (Some(h), Some((t, _))) = (found, exact) {
                 hits += 1;
-                assert!((f64::from(h.t) - t).abs() < 1e-4 * t, "{ray:?}: {h:?}, not {t}");
+                // In lengths: a few roundings of coordinates up to 5, more where the triangle is seen edge-on.
+                let error = (f64::from(h.t) - t).abs() * ray.d.to_f64().length();
+                let length = t * ray.d.to_f64().length();
+                assert!(error < 1e-4 * length + 3e-6, "{ray:?}: {h:?}, not {t}");
             }
         }
         assert!(off_edges > n_rays / 2 * 9 / 10 && hits > n_rays / 20, "{hits} of {off_edges}");
