@@ -1,5 +1,6 @@
 //! [`Geometry`]: shapes with a hierarchy over them.
 
+use core::cell::Cell;
 use std::time::Instant;
 
 use rayon::prelude::*;
@@ -7,6 +8,7 @@ use sparrow_math::{Aabb, Vec3};
 
 use crate::bvh::{Bvh, Kind, MAX_PRIMS, Others, PrimRef, RawHit};
 use crate::curve::Curves;
+use crate::instance::{Instance, Instances, World};
 use crate::patch::Patches;
 use crate::point::{ShapeSample, SurfacePoint};
 use crate::quadric::Quadric;
@@ -114,6 +116,9 @@ impl Body {
 #[derive(Debug)]
 pub struct Geometry {
     bodies: Bodies,
+    instances: Instances,
+    /// The number that the tree gave to the first instance.
+    first_instance: u32,
     bvh: Bvh,
     stats: BuildStats,
 }
@@ -127,6 +132,32 @@ struct Bodies {
 }
 
 impl Bodies {
+    /// Numbers what the tree may hold of all shapes; gives how many numbers that takes. A shape for which there are none left
+    /// gets none.
+    fn new(bodies: Vec<Body>) -> (Bodies, usize) {
+        let mut next = 0;
+        let number = |b: &Body| {
+            let first = next;
+            if next + b.n_ids() <= MAX_PRIMS {
+                next += b.n_ids();
+            }
+            first as u32
+        };
+        let first = bodies.iter().map(number).collect();
+        (Bodies { bodies, first }, next)
+    }
+    /// What a tree over some of the shapes holds, and how many of their primitives that leaves out.
+    fn refs(&self, shapes: core::ops::Range<usize>) -> (Vec<PrimRef>, usize) {
+        let (mut refs, mut dropped) = (Vec::new(), 0);
+        for (body, &first) in self.bodies[shapes.clone()].iter().zip(&self.first[shapes]) {
+            if first as usize + body.n_ids() <= MAX_PRIMS {
+                dropped += body.refs(first, &mut refs);
+            } else {
+                dropped += body.n_prims();
+            }
+        }
+        (refs, dropped)
+    }
     /// The shape that a number of the tree belongs to, and the number within it.
     #[inline]
     fn locate(&self, id: u32) -> (u32, u32) {
@@ -150,7 +181,7 @@ impl Bodies {
             Body::Patches(m) => (local / 2, m.parameters(local, raw)),
             Body::Quadric(_) => (0, [0.0; 2]),
         };
-        Hit { t: raw.t, shape, prim, u, v }
+        Hit { t: raw.t, shape, prim, u, v, instance: None }
     }
 }
 
@@ -179,59 +210,118 @@ impl Geometry {
     /// are left out and counted in [`BuildStats::dropped`]; numbering does not change. So are those beyond the
     /// first 2^28. Of maps to world space only the affine part is used.
     pub fn build(shapes: Vec<ShapeInstance>) -> Geometry {
+        Geometry::build_instanced(shapes, Vec::new(), Vec::new())
+    }
+    /// The same with groups of shapes, each in a space of its own, that stand wherever instances place them.
+    ///
+    /// Shapes of prototypes are numbered on from those of the world. A prototype costs what it holds, an instance about a
+    /// hundred bytes. Instances without an inverse or of a prototype that does not exist are left out and counted as dropped.
+    pub fn build_instanced(
+        shapes: Vec<ShapeInstance>,
+        prototypes: Vec<Vec<ShapeInstance>>,
+        instances: Vec<Instance>,
+    ) -> Geometry {
         let start = Instant::now();
-        let bodies: Vec<Body> = shapes.into_iter().map(Body::new).collect();
-        let n_prims: usize = bodies.iter().map(Body::n_prims).sum();
-        let (mut first, mut refs, mut dropped, mut next) = (Vec::new(), Vec::new(), 0, 0);
-        for body in &bodies {
-            first.push(next as u32);
-            if next + body.n_ids() <= MAX_PRIMS {
-                dropped += body.refs(next as u32, &mut refs);
-                next += body.n_ids();
-            } else {
-                dropped += body.n_prims();
-            }
+        let sizes: Vec<usize> = prototypes.iter().map(Vec::len).collect();
+        let n_world = shapes.len();
+        let bodies = shapes.into_iter().chain(prototypes.into_iter().flatten()).map(Body::new).collect();
+        let (bodies, n_ids) = Bodies::new(bodies);
+        let (mut refs, mut dropped) = bodies.refs(0..n_world);
+        let (mut trees, mut next) = (Vec::with_capacity(sizes.len()), n_world);
+        for n in sizes {
+            let (refs, lost) = bodies.refs(next..next + n);
+            trees.push(Bvh::build(refs, |id| bodies.corners(id)));
+            dropped += lost;
+            next += n;
         }
-        let bodies = Bodies { bodies, first };
+        let mut instances = instances;
+        dropped += instances.len().saturating_sub(MAX_PRIMS - n_ids);
+        instances.truncate(MAX_PRIMS - n_ids);
+        let (instances, first_instance) = (Instances::new(trees, instances), n_ids as u32);
+        dropped += instances.refs(first_instance, &mut refs);
         let bvh = Bvh::build(refs, |id| bodies.corners(id));
-        let bytes = bvh.bytes() + bodies.bodies.iter().map(Body::bytes).sum::<usize>();
+        let n_prims = bodies.bodies.iter().map(Body::n_prims).sum::<usize>() + instances.len();
+        let bytes = bvh.bytes() + instances.bytes() + bodies.bodies.iter().map(Body::bytes).sum::<usize>();
         let stats = BuildStats {
-            primitives: n_prims - dropped,
+            primitives: n_prims.saturating_sub(dropped),
             dropped,
-            nodes: bvh.n_nodes(),
+            nodes: bvh.n_nodes() + instances.n_nodes(),
             bytes,
             build_seconds: start.elapsed().as_secs_f64(),
         };
-        Geometry { bodies, bvh, stats }
+        Geometry { bodies, instances, first_instance, bvh, stats }
     }
 
     /// The nearest point of the ray on any shape.
     #[inline]
     pub fn intersect(&self, ray: &Ray) -> Option<Hit> {
+        if self.instances.len() > 0 {
+            return self.among_instances::<false>(ray, |_| true);
+        }
         let raw = self.bvh.hit::<false>(ray, &self.bodies, |_| true)?;
         Some(self.bodies.to_hit(&raw))
     }
     /// Something lies on the ray.
     #[inline]
     pub fn occluded(&self, ray: &Ray) -> bool {
+        if self.instances.len() > 0 {
+            return self.among_instances::<true>(ray, |_| true).is_some();
+        }
         self.bvh.hit::<true>(ray, &self.bodies, |_| true).is_some()
     }
     /// The nearest point of the ray that `accept` does not reject.
     pub fn intersect_where(&self, ray: &Ray, accept: impl Fn(&Hit) -> bool) -> Option<Hit> {
-        let accept = |raw: &RawHit| accept(&self.bodies.to_hit(raw));
-        let raw = self.bvh.hit::<false>(ray, &self.bodies, accept)?;
-        Some(self.bodies.to_hit(&raw))
+        self.among_instances::<false>(ray, accept)
     }
     /// Something that `accept` does not reject lies on the ray.
     pub fn occluded_where(&self, ray: &Ray, accept: impl Fn(&Hit) -> bool) -> bool {
-        let accept = |raw: &RawHit| accept(&self.bodies.to_hit(raw));
-        self.bvh.hit::<true>(ray, &self.bodies, accept).is_some()
+        self.among_instances::<true>(ray, accept).is_some()
+    }
+    /// [`intersect`](Self::intersect) for each of `rays`, into as many places of `out`; what is longer is not looked at.
+    pub fn intersect_many(&self, rays: &[Ray], out: &mut [Option<Hit>]) {
+        let rays = &rays[..rays.len().min(out.len())];
+        if self.instances.len() > 0 {
+            rays.iter().zip(out).for_each(|(ray, out)| *out = self.intersect(ray));
+            return;
+        }
+        let put = |i: usize, raw: Option<RawHit>| out[i] = raw.map(|raw| self.bodies.to_hit(&raw));
+        self.bvh.hits::<false>(rays, &self.bodies, |_| true, put);
+    }
+    /// [`occluded`](Self::occluded) for each of `rays`, into as many places of `out`; what is longer is not looked at.
+    pub fn occluded_many(&self, rays: &[Ray], out: &mut [bool]) {
+        let rays = &rays[..rays.len().min(out.len())];
+        if self.instances.len() > 0 {
+            rays.iter().zip(out).for_each(|(ray, out)| *out = self.occluded(ray));
+            return;
+        }
+        self.bvh.hits::<true>(rays, &self.bodies, |_| true, |i, raw| out[i] = raw.is_some());
+    }
+    fn among_instances<const ANY: bool>(&self, ray: &Ray, accept: impl Fn(&Hit) -> bool) -> Option<Hit> {
+        let (instances, first) = (&self.instances, self.first_instance);
+        let world = World { others: &self.bodies, instances, first, current: Cell::new(None) };
+        let best = Cell::new(None);
+        let accept = |raw: &RawHit| {
+            let hit = Hit { instance: world.current.get(), ..self.bodies.to_hit(raw) };
+            let accepted = accept(&hit);
+            if accepted {
+                best.set(Some(hit));
+            }
+            accepted
+        };
+        self.bvh.hit::<ANY>(ray, &world, accept);
+        best.get()
     }
     /// The surface at `hit`, which this geometry gave for `ray`.
     ///
     /// Panics for a hit of another geometry, or returns nonsense.
     #[inline]
     pub fn surface(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
+        let Some(i) = hit.instance else { return self.local_surface(ray, hit) };
+        self.instances.surface(i, &self.local_surface(&self.instances.local_ray(i, ray), hit))
+    }
+    /// The surface in the space of the shape.
+    #[inline]
+    fn local_surface(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
         match &self.bodies.bodies[hit.shape as usize] {
             Body::Triangles(m) => m.surface(hit),
             Body::Patches(m) => m.surface(hit),
@@ -247,6 +337,11 @@ impl Geometry {
     ///
     /// Few materials ask for them, so they are not part of [`SurfacePoint`]. Zero for curves.
     pub fn normal_derivatives(&self, ray: &Ray, hit: &Hit) -> (Vec3<f32>, Vec3<f32>) {
+        if let Some(i) = hit.instance {
+            let local = Hit { instance: None, ..*hit };
+            let (u, v) = self.normal_derivatives(&self.instances.local_ray(i, ray), &local);
+            return (self.instances.normal(i, u), self.instances.normal(i, v));
+        }
         match &self.bodies.bodies[hit.shape as usize] {
             Body::Triangles(m) => m.normal_derivatives(hit),
             Body::Patches(m) => m.normal_derivatives(hit),

@@ -8,6 +8,7 @@
 mod bvh;
 mod curve;
 mod geometry;
+mod instance;
 mod patch;
 mod point;
 mod quadric;
@@ -18,6 +19,7 @@ mod simd;
 mod triangle;
 
 pub use geometry::{BuildStats, Geometry};
+pub use instance::Instance;
 pub use point::{ShapeSample, SurfacePoint};
 pub use ray::{Hit, Ray};
 pub use shape::{BilinearMesh, CurveBasis, CurveKind, CurveSet, Shape, ShapeInstance, TriangleMesh};

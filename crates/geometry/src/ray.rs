@@ -42,4 +42,6 @@ pub struct Hit {
     /// Barycentric weight of the third corner; second parameter of a patch or segment; 0 for
     /// quadrics.
     pub v: f32,
+    /// The instance it belongs to; none for shapes of the world.
+    pub instance: Option<u32>,
 }

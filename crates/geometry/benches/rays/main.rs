@@ -1,7 +1,7 @@
 //! Rays per second of processor time: meshes and soups of triangles; camera, bounce and shadow rays; one thread.
 //!
 //! `cargo bench -p sparrow-geometry --bench rays -- [SCENE] [ROUNDS] [RESOLUTION] [SETTINGS]`, with SCENE one of `mesh`, `soup`, `small`
-//! or `all`. With `--features embree` and `EMBREE_LIB_DIR` naming a folder that holds `libembree4.so`, every round runs Embree
+//! or `all`; or `instances`, and instead of SETTINGS their number. With `--features embree` and `EMBREE_LIB_DIR` naming a folder that holds `libembree4.so`, every round runs Embree
 //! beside it, and the ratio of the two is the median over the rounds. Linux only: the clock is a thread's processor time.
 
 #![allow(clippy::print_stdout, reason = "printing is what it is for")]
@@ -10,6 +10,8 @@
 #[cfg(target_os = "linux")]
 #[cfg(feature = "embree")]
 mod embree;
+#[cfg(target_os = "linux")]
+mod instances;
 #[cfg(target_os = "linux")]
 mod race;
 #[cfg(target_os = "linux")]
@@ -35,5 +37,8 @@ fn main() {
         if wanted(scene.name) {
             scene.run(rounds, resolution, settings);
         }
+    }
+    if what == "instances" {
+        instances::run(scenes::bumpy_ball(20), number(3, 10_000_000), rounds, resolution);
     }
 }

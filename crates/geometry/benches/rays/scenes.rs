@@ -130,13 +130,19 @@ fn add_cube(mesh: &mut TriangleMesh, n: u32, at: impl Fn(Vec3<f32>) -> Vec3<f32>
     }
 }
 
-/// A million triangles: a bumpy ball over a bumpy ground.
-fn bumpy() -> TriangleMesh {
+/// A bumpy ball of `12 n^2` triangles around (0, 1, 0).
+pub(crate) fn bumpy_ball(n: u32) -> TriangleMesh {
     let mut mesh = TriangleMesh::default();
-    add_cube(&mut mesh, 205, |p| {
+    add_cube(&mut mesh, n, |p| {
         let d = p.normalized();
         d * (1.0 + 0.35 * (turbulence(d * 5.0, 7) - 0.5)) + vec3(0.0, 1.0, 0.0)
     });
+    mesh
+}
+
+/// A million triangles: a bumpy ball over a bumpy ground.
+fn bumpy() -> TriangleMesh {
+    let mut mesh = bumpy_ball(205);
     add_grid(&mut mesh, 500, |x, y| {
         let (x, z) = (10.0 * (x - 0.5), 10.0 * (y - 0.5));
         vec3(x, 0.9 * (turbulence(vec3(1.3 * x, 7.7, 1.3 * z), 8) - 0.5) - 0.2, z)

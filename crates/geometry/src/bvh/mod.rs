@@ -9,6 +9,8 @@ mod node;
 mod pages;
 mod ray_data;
 mod stack;
+#[cfg(test)]
+mod tests;
 mod traverse;
 
 pub(crate) use block::{RawHit, TriBlock, gamma};
@@ -26,7 +28,7 @@ use crate::simd::Unit;
 pub(crate) const MAX_PRIMS: usize = 1 << 28;
 
 /// The hierarchy over primitives that are known by number.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Bvh {
     nodes: Pages<Node>,
     triangles: Pages<TriBlock>,

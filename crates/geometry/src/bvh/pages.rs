@@ -51,6 +51,14 @@ impl<T: Pod> DerefMut for Pages<T> {
     }
 }
 
+impl<T: Pod> Clone for Pages<T> {
+    fn clone(&self) -> Pages<T> {
+        let mut copy = Pages::zeroed(self.len());
+        copy.copy_from_slice(self);
+        copy
+    }
+}
+
 impl<T: Pod + core::fmt::Debug> core::fmt::Debug for Pages<T> {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         self.deref().fmt(f)

@@ -14,7 +14,8 @@ pub(crate) trait Others {
     /// `t_max`; returns the last of them.
     fn hit(&self, id: u32, ray: &Ray, t_max: f32, found: &mut impl FnMut(RawHit) -> f32) -> f32;
     /// Asks for what the test of primitive `id` will read.
-    fn ahead(&self, id: u32);
+    #[inline(always)]
+    fn ahead(&self, _id: u32) {}
 }
 
 /// The lists that a ray reads.

@@ -381,7 +381,7 @@ fn hopeless_curves_are_left_out() {
             assert!(geometry.intersect(&ray).is_some_and(|h| (h.t - 4.9).abs() < 1e-5));
         }
     }
-    for strands in [vec![], vec![7], vec![1, 0], vec![u32::MAX]] {
+    for strands in [vec![], vec![7], vec![1], vec![u32::MAX]] {
         let curves =
             CurveSet { points: good.to_vec(), strands, basis: CurveBasis::Linear, ..CurveSet::default() };
         assert_eq!(build(curves).intersect(&ray), None);

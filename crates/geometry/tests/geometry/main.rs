@@ -3,6 +3,8 @@
 
 mod build;
 mod curves;
+mod exact;
+mod instances;
 mod rays;
 mod sampling;
 mod spawn;

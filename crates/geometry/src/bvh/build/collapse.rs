@@ -1,4 +1,4 @@
-//! From the binary tree to the wide one, at the least cost that its cuts allow: [`Plan`]. [Ylitie2017, section 3.1]
+//! From the binary tree to the wide one, at the least cost that its cuts allow: [`Plan`]. [Ylitie2017]
 
 use super::super::node::{Child, Kind, Node, WIDTH};
 use super::binary::{Binary, BinaryNode, Kinds};

@@ -18,7 +18,7 @@ pub(crate) use self::prim::PrimRef;
 use self::spatial::{References, Spatial};
 use super::Bvh;
 use super::block::TriBlock;
-use super::node::Child;
+use super::node::{Child, Kind};
 use super::pages::Pages;
 use super::stack::STACK_SIZE;
 use crate::simd::Unit;
@@ -28,9 +28,10 @@ const MAX_OVERLAP: f32 = 10.0;
 /// How many more references than primitives cutting may make, as a part of their number.
 const MAX_COPIES: f64 = 1.0;
 
-/// The surface of the boxes, in units of `area`; summed in an order of its own, whatever the number of threads.
+/// The surface of the boxes of triangles, in units of `area`; summed in an order of its own, whatever the number of threads.
 fn overlap(prims: &[PrimRef], area: f32) -> f32 {
-    let sum = |chunk: &[PrimRef]| chunk.iter().map(|p| p.bounds().half_area()).sum::<f32>();
+    let triangles = |p: &&PrimRef| p.kind() == Kind::Triangles;
+    let sum = |chunk: &[PrimRef]| chunk.iter().filter(triangles).map(|p| p.bounds().half_area()).sum::<f32>();
     let parts: Vec<f32> = prims.par_chunks(1 << 12).map(sum).collect();
     parts.iter().sum::<f32>() / area
 }

@@ -55,10 +55,9 @@ fn slab(b: Box4, axis: usize, from: f32, to: f32) -> Box4 {
     Box4 { lo: f32x4::new(lo), hi: f32x4::new(hi) }
 }
 
-/// The part of the box `b` of a primitive that this fills between two planes across `axis`.
-fn clip(b: Box4, corners: Option<[f32x4; 3]>, axis: usize, from: f32, to: f32) -> Box4 {
+/// The part of the box `b` of a triangle that this fills between two planes across `axis`.
+fn clip(b: Box4, corners: [f32x4; 3], axis: usize, from: f32, to: f32) -> Box4 {
     let b = slab(b, axis, from, to);
-    let Some(corners) = corners else { return b };
     let mut filled = Box4::EMPTY;
     for i in 0..3 {
         let (p, q) = (corners[i], corners[(i + 1) % 3]);
@@ -78,7 +77,7 @@ fn clip(b: Box4, corners: Option<[f32x4; 3]>, axis: usize, from: f32, to: f32) -
 }
 
 impl<C: Fn(u32) -> [[f32; 3]; 3] + Sync> Spatial<'_, C> {
-    /// The corners of a triangle; none for other primitives, whose boxes alone are cut.
+    /// The corners of a triangle; none for other primitives, which are not cut.
     fn corners(&self, p: &PrimRef) -> Option<[f32x4; 3]> {
         let triangle = p.kind() == Kind::Triangles;
         triangle.then(|| (self.corners)(p.id()).map(|[x, y, z]| f32x4::new([x, y, z, 0.0])))
@@ -98,13 +97,15 @@ impl<C: Fn(u32) -> [[f32; 3]; 3] + Sync> Spatial<'_, C> {
         for p in prims {
             let b = p.bounds();
             let (first, last) = (slice(b.lo.to_array()[axis]), slice(b.hi.to_array()[axis]));
+            let last = if p.kind() == Kind::Triangles { last } else { first };
             bins[first].enter += 1;
             bins[last].leave += 1;
-            if first == last {
+            let whole = if first == last { None } else { self.corners(p) };
+            let Some(corners) = whole else {
+                // It counts where it begins; what is not a triangle is never cut.
                 bins[first].bounds = bins[first].bounds.union(b);
                 continue;
-            }
-            let corners = self.corners(p);
+            };
             for (i, bin) in bins.iter_mut().enumerate().take(last + 1).skip(first) {
                 bin.bounds = bin.bounds.union(clip(b, corners, axis, at(i), at(i + 1)));
             }
@@ -149,24 +150,23 @@ impl<C: Fn(u32) -> [[f32; 3]; 3] + Sync> Spatial<'_, C> {
         let n = crossing.len();
         let (left, right) = ((sides[0].0.len() + n) as f32, (sides[1].0.len() + n) as f32);
         for p in crossing {
-            let (b, corners) = (p.bounds(), self.corners(p));
-            let parts = [
-                p.clipped(clip(b, corners, plane.axis, f32::NEG_INFINITY, plane.at)),
-                p.clipped(clip(b, corners, plane.axis, plane.at, f32::INFINITY)),
-            ];
+            let part = |corners, from, to| p.clipped(clip(p.bounds(), corners, plane.axis, from, to));
+            let parts = self.corners(p).map(|corners| {
+                [part(corners, f32::NEG_INFINITY, plane.at), part(corners, plane.at, f32::INFINITY)]
+            });
             let area = |side: usize, b: Box4| sides[side].1.bounds.union(b).half_area();
-            let [b0, b1] = [parts[0].bounds(), parts[1].bounds()];
-            let both = area(0, b0) * left + area(1, b1) * right;
             let all_left = area(0, p.bounds()) * left + area(1, Box4::EMPTY) * (right - 1.0);
             let all_right = area(0, Box4::EMPTY) * (left - 1.0) + area(1, p.bounds()) * right;
-            let exists = [b0, b1].map(|b| !b.to_aabb().is_empty());
-            if !exists[1] || (exists[0] && all_left < both && all_left <= all_right) {
-                put(&mut sides[0], *p);
-            } else if !exists[0] || all_right < both {
-                put(&mut sides[1], *p);
+            let both = |[a, b]: &[PrimRef; 2]| {
+                let empty = a.bounds().to_aabb().is_empty() || b.bounds().to_aabb().is_empty();
+                if empty { f32::INFINITY } else { area(0, a.bounds()) * left + area(1, b.bounds()) * right }
+            };
+            let one = all_left.min(all_right);
+            if let Some([a, b]) = parts.filter(|parts| both(parts) < one) {
+                put(&mut sides[0], a);
+                put(&mut sides[1], b);
             } else {
-                put(&mut sides[0], parts[0]);
-                put(&mut sides[1], parts[1]);
+                put(&mut sides[usize::from(all_right < all_left)], *p);
             }
         }
         sides
