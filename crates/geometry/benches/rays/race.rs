@@ -43,8 +43,6 @@ pub(crate) fn cpu_seconds() -> f64 {
 
 fn median(mut v: Vec<f64>) -> f64 {
     v.sort_by(f64::total_cmp);
-    if std::env::var("BEST").is_ok() {
-        return v[v.len() - 2];
     v[v.len() / 2]
 }
 
