@@ -15,7 +15,7 @@ use crate::suggest::remedy;
 use crate::tables::{Category, Kind, Row, TYPE_ROW, Type, Use};
 
 /// What a shape says its material is.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) enum MaterialRef {
     /// Index into the materials, 0 for the default.
     Index(u32),

@@ -5,6 +5,7 @@
 
 mod blocks;
 mod camera;
+mod curves;
 mod files;
 mod film;
 mod finish;
