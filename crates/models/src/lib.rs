@@ -38,7 +38,6 @@ mod bsdf;
 mod coat;
 mod complex;
 mod cosine_lobe;
-mod fibres;
 mod film;
 pub mod fresnel;
 pub mod ggx;
@@ -47,6 +46,7 @@ mod mirror_facets;
 mod opaque;
 mod params;
 mod registry;
+mod sheen_layer;
 mod surface;
 mod v_cavity;
 

@@ -25,10 +25,10 @@ use sparrow_spectra::Spectrum;
 use super::dielectric::Dielectric;
 use super::eon::Eon;
 use crate::coat::{Coat, raised};
-use crate::fibres::{Fibres, SMOOTHEST};
 use crate::ggx::Ggx;
 use crate::microfacet::albedo;
 use crate::opaque::Opaque;
+use crate::sheen_layer::{Fibres, SMOOTHEST};
 use crate::{About, Bsdf, BsdfSample, Lack, Model, ParamBlock, ParamInfo, Uniforms, fresnel};
 
 /// Fuzz over a coat over a base.
