@@ -5,7 +5,7 @@ use std::io::IsTerminal;
 use std::time::Instant;
 
 use serde::Serialize;
-use sparrow_models::SurfaceKind;
+use sparrow_models::ModelKind;
 use sparrow_verify::{ColumnName, Options, Pins, Question, Report, Row, Subject, Verdict};
 
 use crate::args::VerifyArgs;
@@ -31,7 +31,7 @@ struct Outcome<'a> {
 pub(crate) fn run(args: &VerifyArgs) -> Result<u8, Failure> {
     let kinds = subjects(args)?;
     let pins = match kinds.as_slice() {
-        [one] => Pins::parse(one.params(), &args.params).map_err(|e| {
+        [one] => Pins::parse_for(one, &args.params).map_err(|e| {
             Failure::usage(format!("{}: {e} (see `sparrow models {}`)", one.name(), one.name()))
         })?,
         _ => Pins::default(),
@@ -81,9 +81,9 @@ fn cores() -> usize {
     std::thread::available_parallelism().map_or(1, usize::from)
 }
 
-fn subjects(args: &VerifyArgs) -> Result<Vec<SurfaceKind>, Failure> {
+fn subjects(args: &VerifyArgs) -> Result<Vec<ModelKind>, Failure> {
     match (&args.model, args.all) {
-        (None, true) => Ok(SurfaceKind::ALL.to_vec()),
+        (None, true) => Ok(ModelKind::all().collect()),
         (Some(name), false) => kind(name).map(|k| vec![k]),
         _ => Err(Failure::usage("name one model, or give --all; `sparrow models` lists them")),
     }
@@ -93,9 +93,9 @@ fn subjects(args: &VerifyArgs) -> Result<Vec<SurfaceKind>, Failure> {
 ///
 /// # Errors
 /// Where there is none.
-pub(crate) fn kind(name: &str) -> Result<SurfaceKind, Failure> {
-    SurfaceKind::from_name(name).ok_or_else(|| {
-        let near = sparrow_verify::nearest(name, SurfaceKind::ALL.iter().map(|k| k.name()));
+pub(crate) fn kind(name: &str) -> Result<ModelKind, Failure> {
+    ModelKind::from_name(name).ok_or_else(|| {
+        let near = sparrow_verify::nearest(name, ModelKind::all().map(ModelKind::name));
         let remedy = match near {
             Some(near) => format!("did you mean `{near}`?"),
             None => "`sparrow models` lists them".to_owned(),

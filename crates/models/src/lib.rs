@@ -16,6 +16,8 @@
 //! | `eta` | relative, transmitted side over incident side; as a parameter, below over above |
 //! | `alpha_x`, `alpha_y` | slope widths, after any roughness remapping |
 //!
+//! Fibres have a frame and a cosine of their own: see [`Bcsdf`].
+//!
 //! # Use
 //!
 //! ```
@@ -34,13 +36,17 @@
 //! ```
 
 pub mod batch;
+mod bcsdf;
 mod bsdf;
 mod coat;
 mod complex;
 mod cosine_lobe;
+pub mod cylinder;
+mod fibre;
 mod film;
 pub mod fresnel;
 pub mod ggx;
+mod kind;
 pub mod microfacet;
 mod mirror_facets;
 mod opaque;
@@ -50,7 +56,10 @@ mod sheen_layer;
 mod surface;
 mod v_cavity;
 
+pub use bcsdf::{Bcsdf, N_LOBES, fibre_cosine};
 pub use bsdf::{Bsdf, BsdfSample, Uniforms};
+pub use fibre::{Fibre, FibreKind};
+pub use kind::ModelKind;
 pub use params::{DEFAULT_NM, MAX_CHOICES, MAX_REALS, MAX_SPECTRA, ParamBlock, ParamInfo, ParamKind};
-pub use registry::{About, Lack, Model, Property};
+pub use registry::{About, Kind, Lack, Model, Property};
 pub use surface::{Surface, SurfaceKind};

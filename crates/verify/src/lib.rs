@@ -31,7 +31,7 @@ mod subject;
 mod tally;
 
 pub use case::Case;
-pub use column::{Batch, Column, Drawn, Scalar, Value, narrow};
+pub use column::{Batch, Column, Contract, Drawn, OfFibre, OfSurface, Scalar, Value, narrow};
 pub use pins::{PinError, Pins, nearest};
 pub use question::{ColumnName, Question};
 pub use report::{Claim, Report, Row, Verdict};
