@@ -29,6 +29,9 @@ struct Outcome<'a> {
 /// # Errors
 /// Where the model or a parameter is unknown, or a value out of range.
 pub(crate) fn run(args: &VerifyArgs) -> Result<u8, Failure> {
+    if args.against_fibre {
+        return crate::fibre_cmd::run(args);
+    }
     let kinds = subjects(args)?;
     let pins = match kinds.as_slice() {
         [one] => Pins::parse_for(one, &args.params).map_err(|e| {
@@ -77,7 +80,7 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<u8, Failure> {
     Ok(if holds { DONE } else { INPUT })
 }
 
-fn cores() -> usize {
+pub(crate) fn cores() -> usize {
     std::thread::available_parallelism().map_or(1, usize::from)
 }
 

@@ -2,7 +2,10 @@
 
 use sparrow_math::{LocalDir, vec3};
 use sparrow_models::batch::{self, DirColumns, EvalColumns, ParamColumns, SampleColumns};
-use sparrow_models::{Bsdf, ParamBlock, ParamKind, SurfaceKind, Uniforms};
+use sparrow_models::{
+    Bcsdf, Bsdf, BsdfSample, Fibre, FibreKind, Kind, ParamBlock, ParamKind, Surface, SurfaceKind, Uniforms,
+};
+use sparrow_spectra::Spectrum;
 
 /// Not a multiple of eight, so that the tail is used.
 const N: usize = 203;
@@ -29,14 +32,39 @@ fn directions(seed: u32) -> [Vec<f32>; 3] {
 
 #[test]
 fn batches_equal_single_calls_bit_for_bit() {
-    let (wo, wi) = (directions(1), directions(3));
-    let u = [noise(5), noise(6), noise(7)];
-    let alpha: Vec<f32> = noise(8).iter().map(|v| 0.01 + 0.8 * v).collect();
-    let spectrum = [noise(9), noise(10), noise(11), noise(12)];
-    let nm = noise(13).iter().map(|v| 360.0 + 470.0 * v).collect::<Vec<f32>>();
     // Every choice at its first, second and third place.
-    for (&kind, place) in SurfaceKind::ALL.iter().flat_map(|k| [(k, 0), (k, 1), (k, 2)]) {
-        let mut p = ParamColumns { lambda: [&nm, &[450.0], &nm, &[600.0]], ..ParamColumns::default() };
+    for place in [0, 1, 2] {
+        for &kind in SurfaceKind::ALL {
+            hold(kind, place, |block, wo, wi, u| {
+                let m: Surface<f32> = kind.bind(block);
+                (m.f_cos_pdf(wo, wi), m.sample(wo, u))
+            });
+        }
+        for &kind in FibreKind::ALL {
+            hold(kind, place, |block, wo, wi, u| {
+                let m: Fibre<f32> = kind.bind(block);
+                (m.f_cos_pdf(wo, wi), m.sample(wo, u))
+            });
+        }
+    }
+}
+
+type Answer = ((Spectrum<f32>, f32), BsdfSample<f32>);
+
+/// One model, its choices at the `place`-th name.
+fn hold<K: Kind>(
+    kind: K,
+    place: u8,
+    single: impl Fn(&ParamBlock<f32>, LocalDir<f32>, LocalDir<f32>, Uniforms<f32>) -> Answer,
+) {
+    {
+        let (wo, wi) = (directions(1), directions(3));
+        let u = [noise(5), noise(6), noise(7)];
+        let alpha: Vec<f32> = noise(8).iter().map(|v| 0.01 + 0.8 * v).collect();
+        let spectrum = [noise(9), noise(10), noise(11), noise(12)];
+        let nm = noise(13).iter().map(|v| 360.0 + 470.0 * v).collect::<Vec<f32>>();
+        let h: Vec<f32> = noise(14).iter().map(|v| 2.0 * v - 1.0).collect();
+        let mut p = ParamColumns { h: &h, lambda: [&nm, &[450.0], &nm, &[600.0]], ..ParamColumns::default() };
         let (mut r, mut s, mut c) = (0, 0, 0);
         for info in kind.params() {
             if info.kind == ParamKind::Real {
@@ -74,10 +102,10 @@ fn batches_equal_single_calls_bit_for_bit() {
                 block.spectra[k].0 = p.spectra[k].map(at);
             }
             block.lambda.0 = p.lambda.map(at);
-            let m = kind.bind(&block);
+            block.h = at(p.h);
             let at = |d: &[Vec<f32>; 3]| LocalDir::new(vec3(d[0][i], d[1][i], d[2][i]));
-            let (f, pdf) = m.f_cos_pdf(at(&wo), at(&wi));
-            let s = m.sample(at(&wo), Uniforms { lobe: u[0][i], dir: [u[1][i], u[2][i]] });
+            let u = Uniforms { lobe: u[0][i], dir: [u[1][i], u[2][i]] };
+            let ((f, pdf), s) = single(&block, at(&wo), at(&wi), u);
             let same = |a: f32, b: f32| a.to_bits() == b.to_bits() || (a.abs() < 1e-37 && b.abs() < 1e-37);
             for w in 0..4 {
                 assert!(same(e[w][i], f[w]), "{} f at {i}: {} {}", kind.name(), e[w][i], f[w]);

@@ -25,6 +25,7 @@ mod integrals;
 mod pins;
 mod points;
 mod question;
+pub mod reference_fibre;
 mod report;
 mod run;
 mod subject;

@@ -90,10 +90,10 @@ impl<R: Real> WrappedGauss<R> {
     pub fn value(&self, x: R) -> R {
         self.line(x) + self.line(x.abs() - R::of(2.0 * PI))
     }
-    /// The mean of the density over an interval around `x` in [-pi, pi]; zero where it is six standard deviations away.
+    /// The mean of the density over an interval around `x` in [-pi, pi]; zero where it is seven standard deviations away.
     #[inline(always)]
     pub fn mean(&self, x: R, width: R) -> R {
-        let reach = R::of(6.0) * self.std + R::of(0.5) * width;
+        let reach = R::of(7.1) * self.std + R::of(0.5) * width;
         let image = x.abs() - R::of(2.0 * PI);
         let (near, wraps) = (x.abs().lt(reach), image.abs().lt(reach));
         // Lanes that need neither cost nothing, and the sum is the same whoever else is in the batch.

@@ -12,6 +12,7 @@ pub mod gaussian;
 mod inclination;
 pub mod longitudinal;
 pub mod roots;
+pub mod roughness;
 
 pub use choice::LobeChoice;
 pub use inclination::FibreDir;

@@ -87,7 +87,7 @@ fn trt_between<R: Real>(phi: R, eta: R, low: R, high: R) -> Root<R> {
         low = R::select(below, gamma, low);
         high = R::select(below, high, gamma);
         let next = gamma - value / R::select(slope.abs().gt(R::of(1e-12)), slope, R::of(1e-12));
-        let inside = next.gt(low) & next.lt(high);
+        let inside = next.ge(low) & next.le(high);
         gamma = R::select(inside, next, R::of(0.5) * (low + high));
     }
     let [_, slope] = trt(gamma, phi, eta);

@@ -7,7 +7,7 @@
 //! `theta_i = 2 alpha - theta_o`; `h = 2 v - 1` across the curve; `sigma_a` per radius.
 //!
 //! Limits: one roughness for all lobes, a circular section; roughness below 0.01 counts as 0.01.
-//! Errata: the logarithm of I_0 in pbrt-v4 is off by up to 2 % where its series meet; ours is exact to rounding.
+//! Errata: pbrt-v4's logarithm of I_0 takes M off by up to 2 % where its series meet; ours is that of `Real::i0e`.
 
 use core::f64::consts::PI;
 
@@ -18,6 +18,7 @@ use crate::bcsdf::weighed;
 use crate::cylinder::attenuation::Inside;
 use crate::cylinder::azimuthal::{TrimmedLogistic, exit_azimuth, wrapped};
 use crate::cylinder::longitudinal::{Longitudinal, tilted};
+use crate::cylinder::roughness::{logistic_scale, variance};
 use crate::cylinder::{FibreDir, LobeChoice, colour};
 use crate::{About, Bcsdf, BsdfSample, Lack, Model, N_LOBES, ParamBlock, ParamInfo, Uniforms};
 
@@ -89,24 +90,6 @@ impl<R: Real> Model<R> for Hair<R> {
             tilts: [[-sin_2, cos_2], [sin, cos], doubled([sin_2, cos_2])],
         }
     }
-}
-
-/// Longitudinal variance of R in rad^2. [Chiang2016, eq. 7]
-#[inline(always)]
-pub(crate) fn variance<R: Real>(beta_m: R) -> R {
-    let b4 = beta_m.sqr().sqr();
-    let b20 = b4.sqr().sqr() * b4;
-    (R::of(0.726) * beta_m + R::of(0.812) * beta_m.sqr() + R::of(3.7) * b20).sqr()
-}
-
-/// Azimuthal scale in rad. [Chiang2016, eq. 8]
-#[inline(always)]
-pub(crate) fn logistic_scale<R: Real>(beta_n: R) -> R {
-    let b2 = beta_n.sqr();
-    let b6 = b2 * b2 * b2;
-    let b22 = (b6 * b2).sqr() * b6;
-    // sqrt(pi / 8)
-    R::of(0.626_657_068_657_750_1) * (R::of(0.265) * beta_n + R::of(1.194) * b2 + R::of(5.372) * b22)
 }
 
 /// Sine and cosine of twice the angle.

@@ -84,7 +84,13 @@ impl ReferenceFibre {
         None
     }
     /// Meets the surface in the frame of its scales.
-    fn meet(&self, w: Vec3<f64>, normal: Vec3<f64>, inside: bool, rng: &mut Random) -> Option<(Vec3<f64>, bool)> {
+    fn meet(
+        &self,
+        w: Vec3<f64>,
+        normal: Vec3<f64>,
+        inside: bool,
+        rng: &mut Random,
+    ) -> Option<(Vec3<f64>, bool)> {
         let (sin, cos) = Real::sin_cos(self.tilt);
         let along = vec3(1.0, 0.0, 0.0);
         let leaning = along * sin + normal * cos;
