@@ -14,13 +14,13 @@ pub const WIDTHS: [ParamInfo; 3] = [
     ParamInfo::real("width_m")
         .unit("deg")
         .default(7.5)
-        .range(0.3, 60.0)
+        .range(0.5, 60.0)
         .soft(1.0, 30.0)
         .doc("Standard deviation of R along the fibre; TT has half of it, TRT twice."),
     ParamInfo::real("width_n")
         .unit("deg")
         .default(10.0)
-        .range(0.3, 30.0)
+        .range(0.5, 30.0)
         .soft(1.0, 25.0)
         .doc("Standard deviation of R and TT around the fibre; TRT has twice of it."),
     ParamInfo::real("alpha")

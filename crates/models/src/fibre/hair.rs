@@ -6,7 +6,7 @@
 //! exactly; for that, viewer and light may not be exchanged. Signs as in pbrt-v4: a tilt `alpha > 0` centres R on
 //! `theta_i = 2 alpha - theta_o`; `h = 2 v - 1` across the curve; `sigma_a` per radius.
 //!
-//! Limits: one roughness for all lobes, a circular section; roughness below 0.01 counts as 0.01.
+//! Limits: one roughness for all lobes, a circular section; roughness below 0.02 counts as 0.02.
 //! Errata: pbrt-v4's logarithm of I_0 takes M off by up to 2 % where its series meet; ours is that of `Real::i0e`.
 
 use core::f64::consts::PI;
@@ -23,7 +23,7 @@ use crate::cylinder::{FibreDir, LobeChoice, colour};
 use crate::{About, Bcsdf, BsdfSample, Lack, Model, N_LOBES, ParamBlock, ParamInfo, Uniforms};
 
 /// The least roughness: below it single precision runs out of digits.
-const SMOOTHEST: f64 = 0.01;
+const SMOOTHEST: f64 = 0.02;
 
 /// A hair at one offset of the ray.
 #[derive(Clone, Copy, Debug)]

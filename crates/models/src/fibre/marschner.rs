@@ -8,7 +8,7 @@
 //! `d theta_i = 2 d theta_h`; the attenuation as printed has `1 + cos 2 gamma_t` where the chord is `2 cos gamma_t`; the smoothstep that
 //! ends the caustic runs from 1 down to 0. Reflectance is that of the angle in space, which the paper's two indices amount to.
 //!
-//! Limits: what is reflected inside more than once is left out; caustics make light; not reciprocal where scales are tilted.
+//! Limits: what is reflected inside more than once is left out; caustics make light.
 
 use core::f64::consts::{PI, SQRT_2};
 
@@ -64,10 +64,9 @@ impl<R: Real> Model<R> for Marschner<R> {
         About::new("R, TT, TRT of a smooth cylinder, with caustics, far field", "Marschner2003")
             .anisotropic()
             .transmits()
-            .lacks(&[
-                Lack::reciprocity("lobes are shifted by the tilt of the scales"),
-                Lack::energy("caustics are added, and M is normalised in the angle, not the solid angle"),
-            ]);
+            .lacks(&[Lack::energy(
+                "caustics are added, and M is normalised in the angle, not the solid angle",
+            )]);
     const PARAMS: &'static [ParamInfo] = &[
         ParamInfo::unbounded("sigma_a").unit("1/radius").default(0.5).soft(0.0, 10.0).doc("Absorption."),
         ParamInfo::real("eta")
@@ -84,7 +83,7 @@ impl<R: Real> Model<R> for Marschner<R> {
         ParamInfo::real("beta_r")
             .unit("deg")
             .default(7.5)
-            .range(0.5, 30.0)
+            .range(1.0, 30.0)
             .soft(5.0, 10.0)
             .doc("Standard deviation of R, beta_R; TT has 1/2 of it, TRT twice."),
         ParamInfo::real("glint")
