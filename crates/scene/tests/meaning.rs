@@ -222,7 +222,7 @@ fn every_model_of_the_registry_is_a_material_with_its_own_parameters() {
 #[test]
 fn hair_absorbs_as_pbrt_says() {
     let hair = |params: &str| scene(&format!("WorldBegin Material \"hair\" {params}"));
-    // Eumelanin 1.3 unless something is said. [Chiang's choice of absorption, then of colour]
+    // Eumelanin 1.3 unless something is said.
     let absorption = |s: &SceneDesc| {
         let m = &s.materials[1];
         assert_eq!(m.model, Some(FibreKind::Hair.into()));
@@ -241,10 +241,10 @@ fn hair_absorbs_as_pbrt_says() {
 /// The absorption of a hair, where it is an RGB.
 fn rgb(s: &SceneDesc, m: &MaterialDesc) -> Option<[f32; 3]> {
     let SpectrumParam::Texture(id) = m.spectra.first()? else { return None };
-    match s.spectrum_textures.get(id.0 as usize)? {
-        SpectrumTexture::Constant(SpectrumDesc::Rgb(rgb, _)) => Some(*rgb),
-        _ => None,
-    }
+    let SpectrumTexture::Constant(SpectrumDesc::Rgb(rgb, _)) = s.spectrum_textures.get(id.0 as usize)? else {
+        return None;
+    };
+    Some(*rgb)
 }
 
 #[test]

@@ -90,9 +90,10 @@ impl Histogram {
     }
     fn add(&mut self, w: LocalDir<f64>, lobe: usize, weight: [f64; N_LAMBDA]) {
         let cell = Histogram::cell(w);
-        for k in 0..N_SIGMAS {
-            self.sum[cell][lobe][k] += weight[k];
-            self.sum2[cell][lobe][k] += weight[k] * weight[k];
+        let (sum, sum2) = (&mut self.sum[cell][lobe], &mut self.sum2[cell][lobe]);
+        for (w, (sum, sum2)) in weight.iter().zip(sum.iter_mut().zip(sum2)) {
+            *sum += w;
+            *sum2 += w * w;
         }
     }
     fn join(&mut self, other: &Histogram) {
