@@ -228,7 +228,7 @@ fn hair_absorbs_as_pbrt_says() {
         assert_eq!(m.model, Some(FibreKind::Hair.into()));
         (rgb(s, m), m.choices[0])
     };
-    let brown = [1.3 * 0.419, 1.3 * 0.697, 1.3 * 1.37].map(|v: f64| v as f32);
+    let brown = [0.419, 0.697, 1.37].map(|v| (f64::from(1.3_f32) * v) as f32);
     assert_eq!(absorption(&hair("")), (Some(brown), 0));
     assert_eq!(absorption(&hair("\"float eumelanin\" 1.3")), (Some(brown), 0));
     let red = [0.187, 0.4, 1.05].map(|v: f64| v as f32);
