@@ -21,13 +21,11 @@ pub struct LambertFibre<R> {
 }
 
 impl<R: Real> Model<R> for LambertFibre<R> {
-    const ABOUT: About =
-        About::new("matt cylinder", "Lambert1760, Marschner2003").anisotropic().transmits().lacks(&[
-            Lack::reciprocity("the ray met one normal, which another viewer does not share")
-                .when(&[("field", &["near"])]),
-            Lack::energy("a lamp that one viewer's normal faces may be given back more than it sent")
-                .when(&[("field", &["near"])]),
-        ]);
+    const ABOUT: About = About::new("matt cylinder", "Lambert1760, Marschner2003")
+        .anisotropic()
+        .transmits()
+        .lacks(&[Lack::reciprocity("the ray met one normal, which another viewer does not share")
+            .when(&[("field", &["near"])])]);
     const PARAMS: &'static [ParamInfo] = &[
         ParamInfo::albedo("reflectance").default(0.5).doc("Share of the light that is reflected."),
         ParamInfo::choice("field", &["near", "far"])
