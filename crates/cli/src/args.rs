@@ -166,6 +166,10 @@ pub(crate) struct VerifyArgs {
     #[arg(long)]
     pub(crate) all: bool,
 
+    /// Hold fibre models against a fibre that is traced, lobe by lobe; --samples is rays a place [default: off]
+    #[arg(long, conflicts_with_all = ["all", "model"])]
+    pub(crate) against_fibre: bool,
+
     /// Samples per case and column
     #[arg(long, value_name = "N", default_value_t = 1_000_000,
         value_parser = clap::value_parser!(u32).range(1000..=1_000_000_000))]

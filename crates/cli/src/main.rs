@@ -10,6 +10,7 @@
 mod args;
 mod console;
 mod failure;
+mod fibre_cmd;
 mod images;
 mod info_cmd;
 mod interrupt;

@@ -127,7 +127,8 @@ impl Scene {
             w.terminate_secondary();
         }
         let ctx = self.texture_context(point, material.textured && self.needs_footprint);
-        Some(Scatter::new(point, material.bind(&self.textures, &ctx, w)))
+        let h = fibre_offset(point);
+        Some(Scatter::new(point, material.bind(&self.textures, &ctx, h, w)))
     }
 
     /// Chooses a light for a point and draws a direction towards it; the density includes the choice.
@@ -173,6 +174,11 @@ impl Scene {
         }
         ctx
     }
+}
+
+/// The ray's offset from the axis of a fibre, in radii: `2 v - 1`, as pbrt-v4 has it on any shape.
+fn fibre_offset(point: &SurfacePoint) -> f32 {
+    (2.0 * point.uv[1] - 1.0).clamp(-1.0, 1.0)
 }
 
 /// The change of (u, v) that comes nearest to moving the point by `dp`, by least squares.

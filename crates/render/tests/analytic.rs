@@ -57,6 +57,11 @@ fn white_furnace() {
             0.003,
         );
     }
+    // A fibre's own cosine counts, not that with the sphere's normal; light arrives from both sides.
+    for extra in ["", r#""string mis" "light-only""#, r#""string mis" "bsdf-only""#] {
+        let hair = r#""hair" "rgb sigma_a" [ 0 0 0 ] "float beta_m" 0.6 "float beta_n" 0.7"#;
+        check("white hair", &under_sky(hair, extra), [1.0; 3], 0.003);
+    }
     check("smooth glass", &under_sky(r#""dielectric" "float eta" 1.5"#, ""), [1.0; 3], 0.003);
     check("thin glass", &under_sky(r#""thindielectric" "float eta" 1.5"#, ""), [1.0; 3], 0.003);
     check(

@@ -104,7 +104,7 @@ impl Builder {
     }
 
     /// The strands of a `hair`.
-    pub(super) fn hair(&mut self, params: &Params) -> Option<Curves> {
+    pub(super) fn strands(&mut self, params: &Params) -> Option<Curves> {
         let kind = self.curve_kind(params, CurveKind::Cylinder)?;
         let Some((name, at)) = params.text("filename") else {
             self.report.error(params.at, "the hair names no file; add \"string filename\" \"...\"");

@@ -10,6 +10,7 @@ mod files;
 mod film;
 mod finish;
 mod graphics;
+mod hair;
 mod integrator;
 mod lights;
 mod materials;

@@ -116,7 +116,7 @@ impl Builder {
             "bilinearmesh" => self.bilinear_mesh(params).map(ShapeKind::Mesh),
             "plymesh" => self.ply_mesh(params).map(ShapeKind::Mesh),
             "curve" => self.curve(params).map(|c| ShapeKind::Curves(Arc::new(c))),
-            "hair" => self.hair(params).map(|c| ShapeKind::Curves(Arc::new(c))),
+            "hair" => self.strands(params).map(|c| ShapeKind::Curves(Arc::new(c))),
             "sphere" => {
                 let radius = self.radius(params)?;
                 let [a, b] = [params.float_or("zmin", -radius), params.float_or("zmax", radius)];
