@@ -34,7 +34,7 @@ fn tree(rng: &mut Rng, n: u32) -> Bvh {
     let p: Vec<Vec3<f32>> = (0..n / 2 + 3).map(|_| rng.point()).collect();
     let corners = |i: u32| {
         let p = |k: u32| p[((i / 2 + k) as usize) % p.len()].to_array();
-        if i % 2 == 0 { [p(0), p(1), p(2)] } else { [p(2), p(1), p(0)] }
+        if i.is_multiple_of(2) { [p(0), p(1), p(2)] } else { [p(2), p(1), p(0)] }
     };
     let bounds = |i: u32| corners(i).into_iter().fold(Aabb::EMPTY, |b, p| b.grow(p.into()));
     Bvh::build((0..n).map(|i| PrimRef::new(i, bounds(i), Kind::Triangles)).collect(), corners)

@@ -10,10 +10,10 @@ use super::{Rng, at, placed, sphere, triangles};
 fn space(rng: &mut Rng, i: u32) -> Transform {
     let turn = Transform::rotate(f64::from(rng.between(0.0, 360.0)), rng.direction().to_f64()).unwrap();
     let mut s = vec3(0.3, 0.3, 0.3);
-    if i % 2 == 0 {
+    if i.is_multiple_of(2) {
         s = vec3(f64::from(rng.between(0.1, 0.4)), f64::from(rng.between(0.1, 0.4)), 0.2);
     }
-    if i % 3 == 0 {
+    if i.is_multiple_of(3) {
         s.x = -s.x;
     }
     let stretch = Transform::scale(s).unwrap();
@@ -27,13 +27,9 @@ fn instance(prototype: u32, t: &Transform) -> Instance {
 }
 
 fn copied(s: &ShapeInstance, t: &Transform) -> ShapeInstance {
-    match &s.shape {
-        Shape::Triangles(m) => {
-            let p = m.p.iter().map(|&p| t.point(Vec3::from(p).to_f64()).to_f32().to_array()).collect();
-            placed(Shape::Triangles(TriangleMesh { p, indices: m.indices.clone(), ..Default::default() }))
-        }
-        shape => at(shape.clone(), t.then_first(&s.to_world)),
-    }
+    let Shape::Triangles(m) = &s.shape else { return at(s.shape.clone(), t.then_first(&s.to_world)) };
+    let p = m.p.iter().map(|&p| t.point(Vec3::from(p).to_f64()).to_f32().to_array()).collect();
+    placed(Shape::Triangles(TriangleMesh { p, indices: m.indices.clone(), ..Default::default() }))
 }
 
 /// A world of its own shapes and instances of two prototypes, and the same copied out; and which instance each copy is.
