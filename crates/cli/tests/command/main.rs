@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test that cannot go on has failed")]
 
 mod errors;
+mod groom;
 mod info;
 #[cfg(unix)]
 mod interrupts;
