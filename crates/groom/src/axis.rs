@@ -26,7 +26,7 @@ impl Axis {
         for k in 0..style.n_segments {
             let (s, c) = Real::sin_cos(core::f64::consts::PI * (f64::from(k) + 0.5) / n);
             d = unit_or_up(d + (style.gravity + (a * c + b * s) * style.noise) / n);
-            p = p + d * step;
+            p += d * step;
             points.push(p);
         }
         Axis(points)

@@ -27,7 +27,8 @@ const BUMPS: [([f64; 3], f64, f64); 8] = [
 fn place(u: f64, v: f64) -> Vec3<f64> {
     let (sv, cv) = Real::sin_cos(PI * v);
     let (su, cu) = Real::sin_cos(TAU * u);
-    let d = vec3(cv, sv * cu, sv * su);
+    // Clockwise seen from the nose.
+    let d = vec3(cv, sv * cu, -sv * su);
     let body = 1.0 / ((d.x / BODY[0]).sqr() + (d.y / BODY[1]).sqr() + (d.z / BODY[2]).sqr()).sqrt();
     let bumps = BUMPS.iter().map(|&([x, y, z], height, sharpness)| {
         height * Real::exp(sharpness * (d.dot(vec3(x, y, z).normalized()) - 1.0))
