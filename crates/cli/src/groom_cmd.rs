@@ -14,7 +14,7 @@ use sparrow_scene::ply;
 use crate::failure::{DONE, Failure};
 use crate::{console, paths};
 
-/// Grow hair or fur on a mesh, as a .hair file for `Shape "hair"`
+/// Grow hair or fur on a mesh, as a .hair file for Shape "hair"
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Lengths are those of the mesh. A strand starts along the normal, leaning towards the flow, and is bent by gravity and noise; clumps \

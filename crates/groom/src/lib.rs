@@ -14,11 +14,12 @@
 
 mod axis;
 mod clumps;
+mod curl;
 mod error;
 mod style;
 mod surface;
 
-use sparrow_math::{Frame, Real, Vec3, vec3};
+use sparrow_math::{Real, Vec3, vec3};
 use sparrow_stats::Random;
 
 pub use error::GroomError;
@@ -27,6 +28,7 @@ pub use surface::Surface;
 
 use axis::Axis;
 use clumps::Clumps;
+use curl::curled;
 use surface::Scalp;
 
 /// Most points of a groom, as many as a scene holds in one shape.
@@ -109,33 +111,7 @@ fn random(seed: u64, i: usize, to: Use) -> Random {
     Random::new(of_strand)
 }
 
-/// An axis, wound into a helix whose radius grows from zero at the root to the style's over the first winding or the whole strand,
-/// whichever is shorter.
-fn curled(axis: &Axis, style: &Style, phase: f64) -> Vec<Vec3<f64>> {
-    let p = axis.points();
-    if !(style.curl > 0.0) {
-        return p.to_vec();
-    }
-    let last = f64::from(style.n_segments);
-    let mut across = None;
-    let mut out = Vec::with_capacity(p.len());
-    for k in 0..p.len() {
-        let ahead = p[(k + 1).min(p.len() - 1)] - p[k.max(1) - 1];
-        let frame = match across {
-            // Carried along the axis, so that the helix does not twist.
-            Some(x) => Frame::from_zx(unit_or_up(ahead).to_f32(), x),
-            None => Frame::from_z(unit_or_up(ahead).to_f32()),
-        };
-        across = Some(frame.x);
-        let t = k as f64 / last;
-        let radius = style.curl * (t * style.curl_turns.max(1.0)).min(1.0);
-        let (s, c) = Real::sin_cos(phase + core::f64::consts::TAU * style.curl_turns * t);
-        out.push(p[k] + frame.x.to_f64() * (radius * c) + frame.y.to_f64() * (radius * s));
-    }
-    out
-}
-
-/// The unit vector along `v`; any where `v` has no length.
+/// The unit vector along `v`; +y where `v` has no length.
 fn unit_or_up(v: Vec3<f64>) -> Vec3<f64> {
     let length = v.length();
     if length > 0.0 && length.is_finite() { v / length } else { vec3(0.0, 1.0, 0.0) }
