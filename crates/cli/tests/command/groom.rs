@@ -1,5 +1,8 @@
 //! `sparrow groom`: files, their sameness, refusals.
 
+use std::fs;
+use std::path::Path;
+
 use crate::scratch::Scratch;
 
 /// A unit square of one quad in the plane y = 0, its normal up.
@@ -43,7 +46,7 @@ fn what_grows_is_rendered() {
                  --curl 0.01 --clump 0.4 --clump-size 10 --width-root 0.01 --width-tip 0.002 --json";
     let json = s.run(words).ok().json();
     assert_eq!((&json["strands"], &json["points"]), (&300.into(), &2700.into()));
-    let size = std::fs::metadata(s.path("square.hair")).unwrap().len();
+    let size = fs::metadata(s.path("square.hair")).unwrap().len();
     assert_eq!((size, &json["bytes"]), (128 + 16 * 2700, &size.into()));
     s.put(
         "fur.pbrt",
@@ -61,7 +64,7 @@ fn the_same_words_give_the_same_bytes() {
     let s = scratch();
     let grown = |out: &str, seed: u32| {
         s.run(&format!("groom square.ply -o {out} --count 50 --noise 1 --seed {seed} --quiet")).ok();
-        std::fs::read(s.path(out)).unwrap()
+        fs::read(s.path(out)).unwrap()
     };
     assert_eq!(grown("a.hair", 1), grown("b.hair", 1));
     assert_ne!(grown("a.hair", 1), grown("b.hair", 2));
@@ -95,4 +98,33 @@ fn what_cannot_be_grown_is_told() {
         assert_eq!(s.run(&format!("groom {words}")).code, Some(2), "{words}");
     }
     assert_eq!(s.files(), ["bare.ply", "broken.ply", "line.ply", "room.pbrt", "square.ply"]);
+}
+
+/// The words of a groom's command, which end the first comment of a scene.
+fn command_of(scene: &str) -> Option<String> {
+    let comment = scene.lines().map_while(|l| l.strip_prefix('#')).collect::<Vec<_>>().join(" ");
+    comment.split_once("sparrow groom ").map(|(_, words)| words.to_owned())
+}
+
+/// The strands beside our scenes are those that the scenes' own words grow.
+#[test]
+fn strands_of_our_scenes_are_current() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/fibres");
+    let s = Scratch::new();
+    let mut grown = Vec::new();
+    for scene in fs::read_dir(&folder).unwrap().map(|f| f.unwrap().path()) {
+        let Some(words) = fs::read_to_string(&scene).ok().as_deref().and_then(command_of) else { continue };
+        let (before, rest) = words.split_once("-o ").unwrap();
+        let (name, options) = rest.split_once(' ').unwrap();
+        let fresh = s.path(name);
+        let words = format!("groom {before} -o {} {options} --quiet", fresh.display());
+        let ran = s.command(&words).current_dir(&folder).output().unwrap();
+        assert!(ran.status.success(), "{words}: {ran:?}");
+        let [new, old] = [&fresh, &folder.join(name)].map(|p| fs::read(p).unwrap());
+        assert!(new == old, "{name} is not what {} says", scene.display());
+        assert!(new.len() < 1_000_000, "{name} has {} bytes", new.len());
+        grown.push(name.to_owned());
+    }
+    grown.sort();
+    assert_eq!(grown, ["bundle.hair", "herbert.hair", "tress.hair"]);
 }
