@@ -17,7 +17,7 @@ const ARROWS: [(&str, &[&str]); 10] = [
     ("verify", &["models", "stats", "spectra", "math"]),
     ("plot", &["models", "stats", "spectra", "math"]),
     ("geometry", &["math"]),
-    ("image", &[]),
+    ("image", &["math"]),
     ("scene", &["models", "spectra", "math"]),
     ("render", &["scene", "geometry", "models", "image", "spectra", "math"]),
 ];
