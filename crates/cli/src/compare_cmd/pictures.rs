@@ -20,11 +20,12 @@ pub(super) struct Pictures {
 
 /// One of the two.
 struct Half {
+    path: String,
     image_size: [usize; 2],
     chromaticities: Chromaticities,
     rgb: Vec<[f32; 3]>,
-    /// Why there are none, else them.
-    variance: Result<Vec<[f32; 3]>, String>,
+    /// None where the file has none; else them, or what is wrong with them.
+    variance: Option<Result<Vec<[f32; 3]>, String>>,
 }
 
 impl Pictures {
@@ -66,17 +67,20 @@ impl Pictures {
         Pair::new(self.size[0], &self.picture.rgb, &self.reference.rgb)
     }
 
-    /// Those of picture and reference; else why there is none.
+    /// Those of picture and reference; else why there are none.
     pub(super) fn variances(&self) -> Result<[&[[f32; 3]]; 2], String> {
-        match (&self.picture.variance, &self.reference.variance) {
-            (Ok(a), Ok(b)) => Ok([a, b]),
-            (a, b) => Err([a.as_ref().err(), b.as_ref().err()]
-                .into_iter()
-                .flatten()
-                .cloned()
-                .collect::<Vec<_>>()
-                .join("; ")),
+        let halves = [&self.picture, &self.reference];
+        if let [Some(Ok(a)), Some(Ok(b))] = halves.map(|h| h.variance.as_ref()) {
+            return Ok([a, b]);
         }
+        let without: Vec<&str> =
+            halves.iter().filter(|h| h.variance.is_none()).map(|h| h.path.as_str()).collect();
+        let absent = (!without.is_empty()).then(|| {
+            let (names, files) = (VARIANCES.join(", "), without.join(" and "));
+            format!("there are no channels {names} in {files}; `sparrow render --variance` writes them")
+        });
+        let unsound = halves.iter().filter_map(|h| h.variance.as_ref()?.as_ref().err().cloned());
+        Err(absent.into_iter().chain(unsound).collect::<Vec<_>>().join("; "))
     }
 }
 
@@ -96,6 +100,7 @@ impl Half {
             return Err(vec![Remark::in_file(path, &message)]);
         }
         Ok(Half {
+            path: path.display().to_string(),
             image_size: [image.width, image.height],
             chromaticities: image.chromaticities.unwrap_or(Chromaticities::REC_709),
             variance: variance_of(&image, path),
@@ -104,24 +109,17 @@ impl Half {
     }
 }
 
-fn variance_of(image: &Image, path: &Path) -> Result<Vec<[f32; 3]>, String> {
-    let path = path.display();
-    let [Some(r), Some(g), Some(b)] = VARIANCES.map(|name| image.channel_index(name)) else {
-        return Err(format!(
-            "{path} has no channels {}; `sparrow render --variance` writes them",
-            VARIANCES.join(", ")
-        ));
-    };
-    let at = |x: usize, y: usize| [r, g, b].map(|c| image.value(x, y, c));
-    let all: Vec<[f32; 3]> = (0..image.height)
-        .flat_map(|y| (0..image.width).map(move |x| (x, y)))
-        .map(|(x, y)| at(x, y))
-        .collect();
+fn variance_of(image: &Image, path: &Path) -> Option<Result<Vec<[f32; 3]>, String>> {
+    let [Some(r), Some(g), Some(b)] = VARIANCES.map(|name| image.channel_index(name)) else { return None };
+    let row = |y: usize| (0..image.width).map(move |x| [r, g, b].map(|c| image.value(x, y, c)));
+    let all: Vec<[f32; 3]> = (0..image.height).flat_map(row).collect();
     let sound = |v: f32| v.is_finite() && v >= 0.0;
-    match unsound(&all, image.width, "negative or not finite", sound) {
-        Some(what) => Err(format!("{path}: of the variances, {what}; render with more samples per pixel")),
+    Some(match unsound(&all, image.width, "negative or not finite", sound) {
+        Some(what) => {
+            Err(format!("{}: of the variances, {what}; render with more samples per pixel", path.display()))
+        }
         None => Ok(all),
-    }
+    })
 }
 
 /// How many pixels are not sound in any channel, what they are instead, and where the first is.

@@ -1,6 +1,8 @@
 //! HDR-FLIP: the largest LDR-FLIP over all exposures in which something can be seen. [Andersson2021]
 
 use core::f64::consts::LN_2;
+use core::num::NonZero;
+use std::thread;
 
 use sparrow_math::Real;
 
@@ -13,6 +15,8 @@ const CURVE: [f64; 6] = [0.9036, 0.018, 0.0, 0.8748, 0.354, 0.14];
 const BRIGHT: f64 = 0.85;
 /// Weights of red, green and blue in luminance, as ITU-R BT.709 rounds them.
 const LUMINANCE: [f64; 3] = [0.2126, 0.7152, 0.0722];
+/// Each takes some hundred bytes a pixel.
+const MAX_THREADS: usize = 4;
 /// From the darkest median that counts to the largest `f32` there are fewer exposures than this.
 const MAX_EXPOSURES: usize = 256;
 
@@ -20,21 +24,44 @@ const MAX_EXPOSURES: usize = 256;
 ///
 /// The exposures come from the reference. Negative values count as black.
 pub fn flip_hdr_map(pair: &Pair) -> Vec<f64> {
+    let stops = exposures(pair.reference());
+    let n_threads = thread::available_parallelism().map_or(1, NonZero::get).min(MAX_THREADS).min(stops.len());
+    // The greatest of all, which does not depend on who finds it.
+    if n_threads == 1 {
+        return worst_of(pair, stops.into_iter());
+    }
+    let mut worst = vec![0.0; pair.picture().len()];
+    thread::scope(|scope| {
+        let every = |first: usize| stops.iter().copied().skip(first).step_by(n_threads);
+        let workers: Vec<_> =
+            (0..n_threads).map(|first| scope.spawn(move || worst_of(pair, every(first)))).collect();
+        for worker in workers {
+            match worker.join() {
+                Ok(map) => raise(&mut worst, map),
+                Err(panic) => std::panic::resume_unwind(panic),
+            }
+        }
+    });
+    worst
+}
+
+/// The greatest difference of every pixel in some exposures.
+fn worst_of(pair: &Pair, stops: impl Iterator<Item = f64>) -> Vec<f64> {
     let eye = Eye::new(PIXELS_PER_DEGREE);
     let mut worst = vec![0.0; pair.picture().len()];
-    for stop in exposures(pair.reference()) {
+    for stop in stops {
         let gain = Real::exp(stop * LN_2);
         let toned =
             |v: &[[f32; 3]]| v.iter().map(|p| p.map(|c| tone(gain * f64::from(c)))).collect::<Vec<_>>();
         let map = eye.difference(pair.width(), &toned(pair.picture()), &toned(pair.reference()));
-        // A NaN is worse than anything.
-        worst.iter_mut().zip(map).for_each(|(w, e)| {
-            if !(e <= *w) {
-                *w = e
-            }
-        });
+        raise(&mut worst, map);
     }
     worst
+}
+
+/// Takes the greater at each place; a NaN is greater than anything.
+fn raise(worst: &mut [f64], map: Vec<f64>) {
+    worst.iter_mut().zip(map).filter(|(w, e)| !w.is_nan() && !(*e <= **w)).for_each(|(w, e)| *w = e);
 }
 
 /// Exposures in stops, from the first to the last about one apart, two at least. [Andersson2021]
@@ -82,6 +109,15 @@ mod tests {
         assert!((at(stops[stops.len() - 1], f64::from(0.04f32)) - BRIGHT).abs() < 1e-9);
         // 64 / 0.04 is 10.6 stops.
         assert_eq!(stops.len(), 11);
+    }
+
+    #[test]
+    fn a_nan_of_any_exposure_stays() {
+        let mut worst = vec![0.0; 2];
+        for map in [[0.5, f64::NAN], [0.25, 0.75], [f64::NAN, 0.0]] {
+            raise(&mut worst, map.to_vec());
+        }
+        assert!(worst.iter().all(|w| w.is_nan()), "{worst:?}");
     }
 
     #[test]
