@@ -20,10 +20,10 @@ pub(super) enum Measure {
     Mse,
     /// Mean of squared error over squared reference plus 0.01
     Relmse,
-    /// The same without the worst 0.1 % of the pixels
+    /// relMSE without the worst 0.1 % of the pixels
     #[value(name = "relmse-trim0.1")]
     RelmseTrim01,
-    /// The same without the worst 1 % of the pixels
+    /// relMSE without the worst 1 % of the pixels
     #[value(name = "relmse-trim1")]
     RelmseTrim1,
     /// relMSE between means of 8 x 8 pixels: what does not average out

@@ -38,7 +38,7 @@ pub(crate) struct CompareArgs {
     #[arg(long, value_name = "NAME")]
     metric: Vec<Measure>,
 
-    /// Largest value a measure may have, for scripts; may be given again for others [default: none]
+    /// Value than which a measure may not be worse, for scripts; may be given again for others [default: none]
     #[arg(long, value_name = "NAME=VALUE", value_parser = parse_threshold)]
     threshold: Vec<Threshold>,
 
