@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use clap::builder::{PathBufValueParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use sparrow_render::Mis;
+use sparrow_mis::Mis;
 
 use crate::compare_cmd::CompareArgs;
 use crate::plot_cmd::PlotArgs;
@@ -74,8 +74,8 @@ pub(crate) struct RenderArgs {
     #[arg(long, value_name = "N")]
     pub(crate) max_depth: Option<u32>,
 
-    /// How light sampling and BSDF sampling are weighted: balance, power (exponent 2), power:BETA, light-only or
-    /// bsdf-only [default: the scene's, power where it names none]
+    /// How light sampling and BSDF sampling are weighted: balance, power (exponent 2), power:BETA, cutoff:A,
+    /// maximum, average, one-sample, light-only or bsdf-only [default: the scene's, power where it names none]
     #[arg(long, value_name = "NAME", value_parser = parse_mis)]
     pub(crate) mis: Option<Mis>,
 
@@ -166,6 +166,10 @@ pub(crate) struct VerifyArgs {
     /// Try every model [default: off]
     #[arg(long)]
     pub(crate) all: bool,
+
+    /// Hold fibre models against a fibre that is traced, lobe by lobe; --samples is rays a place [default: off]
+    #[arg(long, conflicts_with_all = ["all", "model"])]
+    pub(crate) against_fibre: bool,
 
     /// Samples per case and column
     #[arg(long, value_name = "N", default_value_t = 1_000_000,

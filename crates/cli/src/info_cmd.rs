@@ -94,7 +94,13 @@ fn shapes(s: &Shapes) -> String {
         (s.spheres, "sphere"),
         (s.disks, "disk"),
         (s.cylinders, "cylinder"),
+        (s.strands, "strand"),
     ]);
+    if s.strands > 0 {
+        let (segments, points) =
+            (plural(s.curve_segments, "segment"), plural(s.control_points, "control point"));
+        let _ = write!(text, " of {segments} and {points} ({})", bytes(s.curve_bytes));
+    }
     if s.meshes > 0 {
         let _ = write!(text, "; {} ({} distinct)", plural(s.meshes, "mesh"), s.distinct_meshes);
     }

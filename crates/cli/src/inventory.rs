@@ -6,7 +6,7 @@ use std::sync::Arc;
 use serde::Serialize;
 use sparrow_math::{Vec3, vec3};
 use sparrow_scene::{
-    FloatTexture, LightKind, Mesh, Projection, SceneDesc, ShapeDesc, ShapeKind, SpectrumTexture,
+    Curves, FloatTexture, LightKind, Mesh, Projection, SceneDesc, ShapeDesc, ShapeKind, SpectrumTexture,
 };
 
 use crate::failure::{self, Remark};
@@ -14,6 +14,8 @@ use crate::{images, names};
 
 /// Bytes of the hierarchy for each primitive, measured on our own scenes.
 const HIERARCHY_BYTES: u64 = 60;
+/// Bytes of the hierarchy for each segment of a curve, or part of one, measured likewise.
+const CURVE_HIERARCHY_BYTES: u64 = 43;
 /// Bytes of a sphere, disk or cylinder with its place in the hierarchy, measured likewise.
 const QUADRIC_BYTES: u64 = 360;
 
@@ -55,6 +57,14 @@ pub(crate) struct Shapes {
     pub(crate) spheres: usize,
     pub(crate) disks: usize,
     pub(crate) cylinders: usize,
+    /// Strands of curves.
+    pub(crate) strands: usize,
+    /// Segments of curves.
+    pub(crate) curve_segments: usize,
+    /// Control points of curves.
+    pub(crate) control_points: usize,
+    /// Bytes of their points and lists, without the hierarchy.
+    pub(crate) curve_bytes: u64,
     /// Shapes with a cut-out texture.
     pub(crate) with_alpha: usize,
 }
@@ -162,7 +172,7 @@ impl Inventory {
             integrator: Integrator {
                 name: names::integrator(desc.integrator.name),
                 max_depth: desc.integrator.max_depth,
-                mis: desc.integrator.mis.clone(),
+                mis: desc.integrator.mis.to_string(),
                 mis_compensation: desc.integrator.mis_compensation,
                 light_sampler: names::light_sampler(desc.integrator.light_sampler),
                 regularize: desc.integrator.regularize,
@@ -191,6 +201,12 @@ impl Shapes {
                 ShapeKind::Sphere { .. } => s.spheres += 1,
                 ShapeKind::Disk { .. } => s.disks += 1,
                 ShapeKind::Cylinder { .. } => s.cylinders += 1,
+                ShapeKind::Curves(c) => {
+                    s.strands += c.strands.len();
+                    s.curve_segments += c.n_segments();
+                    s.control_points += c.points.len();
+                    s.curve_bytes += curve_bytes(c);
+                }
             }
         }
         s.distinct_meshes = distinct.len();
@@ -214,6 +230,7 @@ impl Lights {
             l.emitting_shapes += 1;
             l.emitting_primitives += match &shape.kind {
                 ShapeKind::Mesh(mesh) => mesh.triangles.len() + mesh.patches.len(),
+                ShapeKind::Curves(_) => 0,
                 ShapeKind::Sphere { .. } | ShapeKind::Disk { .. } | ShapeKind::Cylinder { .. } => 1,
             };
         }
@@ -318,8 +335,16 @@ fn shape_bytes(s: &ShapeDesc) -> u64 {
             let prims = (mesh.triangles.len() + 2 * mesh.patches.len()) as u64;
             mesh_bytes(mesh) + prims * HIERARCHY_BYTES
         }
+        ShapeKind::Curves(c) => {
+            curve_bytes(c) + ((c.n_segments() as u64) << c.split_depth) * CURVE_HIERARCHY_BYTES
+        }
         ShapeKind::Sphere { .. } | ShapeKind::Disk { .. } | ShapeKind::Cylinder { .. } => QUADRIC_BYTES,
     }
+}
+
+/// 16 bytes a point, 4 a segment and a strand, 12 a normal.
+fn curve_bytes(c: &Curves) -> u64 {
+    (16 * c.points.len() + 4 * (c.n_segments() + c.strands.len()) + 12 * c.normals.len()) as u64
 }
 
 fn mesh_bytes(m: &Mesh) -> u64 {

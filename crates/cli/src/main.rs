@@ -11,6 +11,7 @@ mod args;
 mod compare_cmd;
 mod console;
 mod failure;
+mod fibre_cmd;
 mod images;
 mod info_cmd;
 mod interrupt;

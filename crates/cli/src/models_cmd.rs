@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 
 use serde::Serialize;
-use sparrow_models::{Lack, ParamInfo, ParamKind, Property, SurfaceKind};
+use sparrow_models::{Lack, ModelKind, ParamInfo, ParamKind, Property};
 
 use crate::args::ModelsArgs;
 use crate::console;
@@ -57,7 +57,7 @@ pub(crate) fn run(args: &ModelsArgs) -> Result<u8, Failure> {
     let text = match (one, args.json) {
         (Some(k), true) => json(&model(k))?,
         (Some(k), false) => sheet(&model(k)),
-        (None, true) => json(&SurfaceKind::ALL.iter().map(|k| model(*k)).collect::<Vec<_>>())?,
+        (None, true) => json(&ModelKind::all().map(model).collect::<Vec<_>>())?,
         (None, false) => list(),
     };
     console::print(text.trim_end())?;
@@ -69,7 +69,7 @@ fn json(v: &impl Serialize) -> Result<String, Failure> {
         .map_err(|e| Failure::input(format!("the result is no JSON: {e}; please report this")))
 }
 
-fn model(kind: SurfaceKind) -> Model {
+fn model(kind: ModelKind) -> Model {
     let about = kind.about();
     let lacks = |p: Property| about.lacks.iter().any(|l| l.property == p);
     Model {
@@ -124,7 +124,7 @@ fn properties(m: &Model) -> String {
 }
 
 fn list() -> String {
-    let models: Vec<Model> = SurfaceKind::ALL.iter().map(|k| model(*k)).collect();
+    let models: Vec<Model> = ModelKind::all().map(model).collect();
     let wide = models.iter().map(|m| m.name.len()).max().unwrap_or(0);
     let mut out = String::new();
     for m in &models {

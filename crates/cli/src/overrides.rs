@@ -34,9 +34,7 @@ pub(crate) fn apply(args: &RenderArgs, desc: &mut SceneDesc) {
     }
     integrator.max_depth = args.max_depth.unwrap_or(integrator.max_depth);
     if let Some(mis) = args.mis {
-        integrator.mis = mis.to_string();
-        // These switch off one of the two techniques; so does the option, by `light-only` and `bsdf-only`.
-        (integrator.sample_lights, integrator.sample_bsdf) = (true, true);
+        integrator.mis = mis;
     }
     if let Some(switch) = args.mis_compensation {
         integrator.mis_compensation = switch.is_on();
@@ -139,9 +137,11 @@ mod tests {
         assert_eq!((desc.sampler.strata, desc.sampler.samples_per_pixel), ([6, 4], 24));
         assert_eq!((desc.seed, desc.sampler.seed), (7, None));
         let i = &desc.integrator;
-        assert_eq!((i.max_depth, i.name, i.mis.as_str()), (0, IntegratorName::DirectLighting, "power:1.5"));
+        assert_eq!(
+            (i.max_depth, i.name, i.mis.to_string().as_str()),
+            (0, IntegratorName::DirectLighting, "power:1.5")
+        );
         assert_eq!((i.light_sampler, i.mis_compensation), (LightSamplerName::Power, false));
-        assert!(i.sample_lights && i.sample_bsdf, "--mis names the techniques");
         assert!(!desc.film.save_fp16);
         assert_eq!(after(scene, "--time 1").sampler.samples_per_pixel, MAX_SPP);
         assert_eq!(after(scene, "--time 1 --spp 4").sampler.samples_per_pixel, 4);

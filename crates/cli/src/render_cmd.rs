@@ -170,7 +170,7 @@ fn build(
     stats.mis = plan.integrator.mis.to_string();
     stats.sampler_notes = plan.sampler.notes();
     stats.sampler_notes.iter().for_each(|n| log.line(&format!("note: {n}")));
-    let Compiled { scene, notes } = compile(desc, plan.integrator.mis).map_err(|e| refused(e.0))?;
+    let Compiled { scene, notes } = compile(desc).map_err(|e| refused(e.0))?;
     notes.into_iter().for_each(|n| log.note(n));
     Ok((scene, plan))
 }

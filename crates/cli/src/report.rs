@@ -126,7 +126,7 @@ impl Stats {
             pixel_bounds: desc.film.pixel_bounds,
             integrator: names::integrator(integrator.name),
             max_depth: integrator.max_depth,
-            mis: integrator.mis.clone(),
+            mis: integrator.mis.to_string(),
             light_sampler: names::light_sampler(integrator.light_sampler),
             sampler: names::sampler(desc.sampler.name),
             seed: desc.sampler.seed.unwrap_or(desc.seed),

@@ -5,7 +5,7 @@ use std::io::IsTerminal;
 use std::time::Instant;
 
 use serde::Serialize;
-use sparrow_models::SurfaceKind;
+use sparrow_models::ModelKind;
 use sparrow_models::suggest::remedy;
 use sparrow_verify::{ColumnName, Options, Pins, Question, Report, Row, Subject, Verdict};
 
@@ -30,9 +30,12 @@ struct Outcome<'a> {
 /// # Errors
 /// Where the model or a parameter is unknown, or a value out of range.
 pub(crate) fn run(args: &VerifyArgs) -> Result<u8, Failure> {
+    if args.against_fibre {
+        return crate::fibre_cmd::run(args);
+    }
     let kinds = subjects(args)?;
     let pins = match kinds.as_slice() {
-        [one] => Pins::parse(one.params(), &args.params).map_err(|e| {
+        [one] => Pins::parse_for(one, &args.params).map_err(|e| {
             Failure::usage(format!("{}: {e} (see `sparrow models {}`)", one.name(), one.name()))
         })?,
         _ => Pins::default(),
@@ -78,13 +81,13 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<u8, Failure> {
     Ok(if holds { DONE } else { INPUT })
 }
 
-fn cores() -> usize {
+pub(crate) fn cores() -> usize {
     std::thread::available_parallelism().map_or(1, usize::from)
 }
 
-fn subjects(args: &VerifyArgs) -> Result<Vec<SurfaceKind>, Failure> {
+fn subjects(args: &VerifyArgs) -> Result<Vec<ModelKind>, Failure> {
     match (&args.model, args.all) {
-        (None, true) => Ok(SurfaceKind::ALL.to_vec()),
+        (None, true) => Ok(ModelKind::all().collect()),
         (Some(name), false) => kind(name).map(|k| vec![k]),
         _ => Err(Failure::usage("name one model, or give --all; `sparrow models` lists them")),
     }
@@ -94,9 +97,9 @@ fn subjects(args: &VerifyArgs) -> Result<Vec<SurfaceKind>, Failure> {
 ///
 /// # Errors
 /// Where there is none.
-pub(crate) fn kind(name: &str) -> Result<SurfaceKind, Failure> {
-    SurfaceKind::from_name(name).ok_or_else(|| {
-        let remedy = remedy(name, SurfaceKind::ALL.iter().map(|k| k.name()));
+pub(crate) fn kind(name: &str) -> Result<ModelKind, Failure> {
+    ModelKind::from_name(name).ok_or_else(|| {
+        let remedy = remedy(name, ModelKind::all().map(ModelKind::name));
         Failure::usage(format!("there is no model `{name}`; {remedy}"))
     })
 }

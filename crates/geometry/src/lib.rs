@@ -6,16 +6,20 @@
 //! mean in pbrt-v4.
 
 mod bvh;
+mod curve;
 mod geometry;
+mod instance;
 mod patch;
 mod point;
 mod quadric;
 mod ray;
 mod sample;
 mod shape;
+mod simd;
 mod triangle;
 
 pub use geometry::{BuildStats, Geometry};
+pub use instance::Instance;
 pub use point::{ShapeSample, SurfacePoint};
 pub use ray::{Hit, Ray};
-pub use shape::{BilinearMesh, Shape, ShapeInstance, TriangleMesh};
+pub use shape::{BilinearMesh, CurveBasis, CurveKind, CurveSet, Shape, ShapeInstance, TriangleMesh};

@@ -67,6 +67,12 @@ impl SurfacePoint {
             prim: hit.prim,
         }
     }
+    /// Offset across the fibre, in [-1, 1], for points of curves: the sine of the angle from the direction the ray came
+    /// from to the outward normal, around the tangent. pbrt-v4's `h`.
+    #[inline]
+    pub fn h(&self) -> f32 {
+        2.0 * self.uv[1] - 1.0
+    }
     /// The ray that leaves in direction `d` and does not meet its own surface again through rounding.
     #[inline]
     pub fn spawn(&self, d: Vec3<f32>) -> Ray {

@@ -35,9 +35,13 @@ pub struct Hit {
     pub shape: u32,
     /// Number of the primitive in its shape; 0 for quadrics.
     pub prim: u32,
-    /// Barycentric weight of the second corner; first parameter of a patch; 0 for quadrics, whose texture
+    /// Barycentric weight of the second corner; first parameter of a patch or a curve's
+    /// segment; 0 for quadrics, whose texture
     /// coordinates [`Geometry::surface`](crate::Geometry::surface) works out.
     pub u: f32,
-    /// Barycentric weight of the third corner; second parameter of a patch; 0 for quadrics.
+    /// Barycentric weight of the third corner; second parameter of a patch or segment; 0 for
+    /// quadrics.
     pub v: f32,
+    /// The instance it belongs to; none for shapes of the world.
+    pub instance: Option<u32>,
 }

@@ -35,6 +35,52 @@ pub struct BilinearMesh {
     pub uv: Vec<[f32; 2]>,
 }
 
+/// How control points make a curve. Segments join where they share control points.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum CurveBasis {
+    /// Straight segments from point to point.
+    Linear,
+    /// Cubic Bezier segments; each begins with the last point of the one before.
+    #[default]
+    Bezier,
+    /// Uniform cubic B-spline: a strand of `n` points has `n - 3` segments.
+    BSpline,
+    /// Uniform Catmull-Rom spline through all points, the first and last included, where the tangent is that of the
+    /// chord: a strand of `n` points has `n - 1` segments.
+    CatmullRom,
+}
+
+/// What surface a curve has; see the notes beside `src/curve`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum CurveKind {
+    /// pbrt-v4's `flat`: a strip that faces every ray.
+    #[default]
+    Flat,
+    /// pbrt-v4's `cylinder`: the same strip with the normals of a cylinder.
+    Cylinder,
+    /// pbrt-v4's `ribbon`: a strip as wide as an oriented one looks.
+    Ribbon,
+    /// A tube: the circle at right angles to the curve, swept along it.
+    Round,
+}
+
+/// Curves in world space.
+#[derive(Clone, Debug, Default)]
+pub struct CurveSet {
+    /// Control points and radii there; `x y z r`.
+    pub points: Vec<[f32; 4]>,
+    /// The first control point of each strand, which ends where the next one begins.
+    pub strands: Vec<u32>,
+    /// How control points make a curve.
+    pub basis: CurveBasis,
+    /// What surface it has.
+    pub kind: CurveKind,
+    /// Of ribbons: a normal for each end of a segment, one more a strand than it has segments. Else empty.
+    pub normals: Vec<[f32; 3]>,
+    /// Every segment is cut into `2^split_depth` pieces with boxes of their own: faster, and larger. At most 2.
+    pub split_depth: u8,
+}
+
 /// A shape. Quadrics stand in their own object space around the z axis; angles are in radians.
 #[derive(Clone, Debug)]
 pub enum Shape {
@@ -42,6 +88,8 @@ pub enum Shape {
     Triangles(TriangleMesh),
     /// Bilinear patches.
     Patches(BilinearMesh),
+    /// Curves.
+    Curves(CurveSet),
     /// Sphere around the origin, cut at two heights and at an azimuth.
     Sphere {
         /// Radius.
@@ -82,7 +130,7 @@ pub enum Shape {
 pub struct ShapeInstance {
     /// The shape.
     pub shape: Shape,
-    /// World space from object space, for quadrics; not looked at for meshes, which are in world space.
+    /// World space from object space, for quadrics; not looked at for meshes and curves, which are in world space.
     pub to_world: Transform,
     /// The orientation is reversed, or the map to world space swaps handedness, but not both.
     pub flip_normal: bool,

@@ -7,7 +7,9 @@
 use criterion::{BatchSize, Criterion, criterion_group, criterion_main};
 use sparrow_math::{LocalDir, Real, vec3};
 use sparrow_models::batch::{self, DirColumns, EvalColumns, ParamColumns, SampleColumns};
-use sparrow_models::{Bsdf, ParamBlock, ParamKind, Surface, SurfaceKind, Uniforms};
+use sparrow_models::{
+    Bcsdf, Bsdf, Fibre, FibreKind, Kind, ParamBlock, ParamKind, Surface, SurfaceKind, Uniforms,
+};
 use std::hint::black_box;
 
 const N: usize = 4096;
@@ -17,12 +19,13 @@ struct Inputs {
     wo: [Vec<f32>; 3],
     wi: [Vec<f32>; 3],
     u: [Vec<f32>; 3],
+    h: Vec<f32>,
     reals: Vec<f32>,
     spectra: Vec<f32>,
 }
 
 impl Inputs {
-    fn new(kind: SurfaceKind) -> Inputs {
+    fn new(kind: impl Kind) -> Inputs {
         let mut state = 1u64;
         let mut next = move || {
             state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
@@ -43,18 +46,21 @@ impl Inputs {
         };
         let (wo, wi) = (dirs(0.0), dirs(0.3));
         let u = [(); 3].map(|()| (0..N).map(|_| next()).collect());
+        let h = (0..N).map(|_| 2.0 * next() - 1.0).collect();
         let table = kind.params();
         let reals = table.iter().filter(|p| p.kind == ParamKind::Real);
-        let reals = reals.map(|p| if p.name.starts_with("alpha") { 0.2 } else { p.default as f32 }).collect();
+        let reals = reals
+            .map(|p| if p.name.starts_with("alpha") && p.unit == "1" { 0.2 } else { p.default as f32 })
+            .collect();
         let spectra = table
             .iter()
             .filter(|p| matches!(p.kind, ParamKind::Albedo | ParamKind::Unbounded))
             .map(|p| p.default as f32)
             .collect();
-        Inputs { wo, wi, u, reals, spectra }
+        Inputs { wo, wi, u, h, reals, spectra }
     }
     fn columns(&self) -> ParamColumns<'_> {
-        let mut p = ParamColumns::default();
+        let mut p = ParamColumns { h: &self.h, ..ParamColumns::default() };
         for (slot, v) in p.reals.iter_mut().zip(self.reals.chunks(1)) {
             *slot = v;
         }
@@ -107,7 +113,29 @@ where
     });
 }
 
-fn lanes(c: &mut Criterion, kind: SurfaceKind) {
+fn scalar_fibre(c: &mut Criterion, kind: FibreKind) {
+    let x = Inputs::new(kind);
+    let block = |i: usize| ParamBlock { h: x.h[i], ..x.block::<f32>() };
+    c.bench_function(&format!("{} f+pdf f32", kind.name()), |b| {
+        b.iter(|| {
+            for i in 0..N {
+                let m: Fibre<f32> = kind.bind(black_box(&block(i)));
+                black_box(m.f_cos_pdf(dir(&x.wo, i), dir(&x.wi, i)));
+            }
+        });
+    });
+    c.bench_function(&format!("{} sample f32", kind.name()), |b| {
+        b.iter(|| {
+            for i in 0..N {
+                let u = Uniforms { lobe: x.u[0][i], dir: [x.u[1][i], x.u[2][i]] };
+                let m: Fibre<f32> = kind.bind(black_box(&block(i)));
+                black_box(m.sample(dir(&x.wo, i), u));
+            }
+        });
+    });
+}
+
+fn lanes(c: &mut Criterion, kind: impl Kind) {
     let x = Inputs::new(kind);
     let out = || [(); 10].map(|()| vec![0.0f32; N]);
     c.bench_function(&format!("{} f+pdf lanes", kind.name()), |b| {
@@ -136,6 +164,10 @@ fn all(c: &mut Criterion) {
     for &kind in SurfaceKind::ALL {
         scalar::<f32>(c, kind, "f32");
         scalar::<f64>(c, kind, "f64");
+        lanes(c, kind);
+    }
+    for &kind in FibreKind::ALL {
+        scalar_fibre(c, kind);
         lanes(c, kind);
     }
 }

@@ -11,7 +11,7 @@ use sparrow_math::{InLanes, LocalDir, Real, in_lanes, one_by_one, vec3};
 use sparrow_spectra::{N_LAMBDA, Spectrum};
 
 use crate::{
-    Bsdf, MAX_CHOICES, MAX_REALS, MAX_SPECTRA, Model, ParamBlock, ParamInfo, ParamKind, SurfaceKind, Uniforms,
+    BsdfSample, Kind, MAX_CHOICES, MAX_REALS, MAX_SPECTRA, Model, ParamBlock, ParamInfo, ParamKind, Uniforms,
 };
 
 /// Directions, one column per component; all of one length.
@@ -36,6 +36,8 @@ pub struct ParamColumns<'a> {
     pub choices: [u8; MAX_CHOICES],
     /// Wavelengths in nm; where empty, those of [`ParamBlock::default`].
     pub lambda: [&'a [f32]; N_LAMBDA],
+    /// Offsets of the rays across a fibre; 0 where empty.
+    pub h: &'a [f32],
 }
 
 /// Where values and densities go.
@@ -66,7 +68,7 @@ pub struct SampleColumns<'a> {
 ///
 /// Panics where columns differ in length.
 pub fn f_cos_pdf(
-    kind: SurfaceKind,
+    kind: impl Kind,
     params: &ParamColumns<'_>,
     wo: &DirColumns<'_>,
     wi: &DirColumns<'_>,
@@ -79,7 +81,7 @@ pub fn f_cos_pdf(
 ///
 /// Panics where columns differ in length.
 pub fn sample(
-    kind: SurfaceKind,
+    kind: impl Kind,
     params: &ParamColumns<'_>,
     wo: &DirColumns<'_>,
     u: &[&[f32]; 3],
@@ -91,7 +93,11 @@ pub fn sample(
 /// A model without its number type.
 pub(crate) trait Family {
     /// The model over `R`.
-    type Of<R: Real>: Model<R> + Bsdf<R>;
+    type Of<R: Real>: Model<R>;
+    /// Value times cosine, and density.
+    fn f_cos_pdf<R: Real>(m: &Self::Of<R>, wo: LocalDir<R>, wi: LocalDir<R>) -> (Spectrum<R>, R);
+    /// Draws a direction.
+    fn sample<R: Real>(m: &Self::Of<R>, wo: LocalDir<R>, u: Uniforms<R>) -> BsdfSample<R>;
 }
 
 #[inline(always)]
@@ -127,7 +133,7 @@ const fn counts(table: &[ParamInfo]) -> (usize, usize) {
 #[inline(always)]
 fn bind<R: Real, M: Model<R>>(p: &ParamColumns<'_>, i: usize) -> M {
     let (reals, spectra) = const { counts(M::PARAMS) };
-    let mut block = ParamBlock { choices: p.choices, ..ParamBlock::default() };
+    let mut block = ParamBlock { choices: p.choices, h: value(p.h, i), ..ParamBlock::default() };
     for (slot, column) in block.reals.iter_mut().zip(&p.reals).take(reals) {
         *slot = value(column, i);
     }
@@ -171,7 +177,7 @@ impl<F: Family> InLanes for Eval<'_, '_, F> {
     fn run<R: Real>(self) {
         for i in self.range.step_by(R::WIDTH) {
             let model = bind::<R, F::Of<R>>(self.p, i);
-            let (f_cos, pdf) = model.f_cos_pdf(dir(self.wo, i), dir(self.wi, i));
+            let (f_cos, pdf) = F::f_cos_pdf(&model, dir(self.wo, i), dir(self.wi, i));
             put(f_cos, &mut self.out.f_cos, i);
             pdf.store(self.out.pdf, i);
         }
@@ -194,7 +200,7 @@ impl<F: Family> InLanes for Draw<'_, '_, F> {
         let (u, out) = (self.u, self.out);
         for i in self.range.step_by(R::WIDTH) {
             let u = Uniforms { lobe: R::load(u[0], i), dir: [R::load(u[1], i), R::load(u[2], i)] };
-            let s = bind::<R, F::Of<R>>(self.p, i).sample(dir(self.wo, i), u);
+            let s = F::sample(&bind::<R, F::Of<R>>(self.p, i), dir(self.wo, i), u);
             let v = s.wi.v();
             v.x.store(out.wi[0], i);
             v.y.store(out.wi[1], i);

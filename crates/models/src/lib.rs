@@ -16,6 +16,8 @@
 //! | `eta` | relative, transmitted side over incident side; as a parameter, below over above |
 //! | `alpha_x`, `alpha_y` | slope widths, after any roughness remapping |
 //!
+//! Fibres have a frame and a cosine of their own: see [`Bcsdf`].
+//!
 //! # Use
 //!
 //! ```
@@ -34,26 +36,33 @@
 //! ```
 
 pub mod batch;
+mod bcsdf;
 mod bsdf;
 mod coat;
 mod complex;
 mod cosine_lobe;
-mod fibres;
+pub mod cylinder;
+mod fibre;
 mod film;
 pub mod fresnel;
 pub mod ggx;
+mod kind;
 pub mod microfacet;
 mod mirror_facets;
 mod opaque;
 mod params;
 mod per_lane;
 mod registry;
+mod sheen_layer;
 pub mod suggest;
 mod surface;
 mod table;
 mod v_cavity;
 
+pub use bcsdf::{Bcsdf, N_LOBES, fibre_cosine};
 pub use bsdf::{Bsdf, BsdfSample, Uniforms};
+pub use fibre::{Fibre, FibreKind};
+pub use kind::ModelKind;
 pub use params::{DEFAULT_NM, MAX_CHOICES, MAX_REALS, MAX_SPECTRA, ParamBlock, ParamInfo, ParamKind};
-pub use registry::{About, Lack, Model, Property};
+pub use registry::{About, Kind, Lack, Model, Property};
 pub use surface::{Surface, SurfaceKind};

@@ -109,6 +109,9 @@ pub struct ParamBlock<R> {
     /// Wavelengths of the path in nm, in the order of a spectrum's values; [`DEFAULT_NM`] where nobody says. No parameter:
     /// whoever binds a model fills them in, and only models of interference or diffraction read them.
     pub lambda: Spectrum<R>,
+    /// Offset of the ray from the axis of a fibre, in radii, -1 to 1: the sine of the angle from the normal's azimuth to the viewer's,
+    /// `-wo.y / sqrt(wo.y^2 + wo.z^2)` on a cylinder; `2 v - 1` across a curve. No parameter either; surfaces do not read it.
+    pub h: R,
 }
 
 impl<R: Real> Default for ParamBlock<R> {
@@ -118,6 +121,7 @@ impl<R: Real> Default for ParamBlock<R> {
             spectra: [Spectrum::ZERO; MAX_SPECTRA],
             choices: [0; MAX_CHOICES],
             lambda: Spectrum::splat(R::of(DEFAULT_NM)),
+            h: R::ZERO,
         }
     }
 }

@@ -1,5 +1,6 @@
 //! The macro that makes one table of models: the enum, its dispatch, the names and the constructor.
 
+use crate::batch::{DirColumns, EvalColumns, ParamColumns, SampleColumns};
 use crate::{ParamBlock, ParamInfo, ParamKind};
 
 /// A property that reflection ought to have.
@@ -111,6 +112,51 @@ pub trait Model<R>: Sized {
     fn new(params: &ParamBlock<R>) -> Self;
 }
 
+/// A table of models: what a `SurfaceKind` and a `FibreKind` can both do.
+pub trait Kind: Copy + core::fmt::Debug + Send + Sync + 'static {
+    /// Every registered model.
+    const ALL: &'static [Self];
+    /// The name in scenes and on the command line.
+    fn name(self) -> &'static str;
+    /// The model's parameter table.
+    fn params(self) -> &'static [ParamInfo];
+    /// What the model is and lacks.
+    fn about(self) -> About;
+    /// Values and densities at many points; see [`batch::f_cos_pdf`](crate::batch::f_cos_pdf).
+    fn eval_columns(
+        self,
+        p: &ParamColumns<'_>,
+        wo: &DirColumns<'_>,
+        wi: &DirColumns<'_>,
+        out: &mut EvalColumns<'_>,
+    );
+    /// Samples at many points; see [`batch::sample`](crate::batch::sample).
+    fn sample_columns(
+        self,
+        p: &ParamColumns<'_>,
+        wo: &DirColumns<'_>,
+        u: &[&[f32]; 3],
+        out: &mut SampleColumns<'_>,
+    );
+}
+
+/// What a fibre answers besides: its value by lobes.
+macro_rules! dispatch_lobes {
+    ($Enum:ident, Bsdf, $R:ty: $($Variant:ident)*) => {};
+    ($Enum:ident, Bcsdf, $R:ty: $($Variant:ident)*) => {
+        fn lobes(
+            &self,
+            wo: sparrow_math::LocalDir<$R>,
+            wi: sparrow_math::LocalDir<$R>,
+        ) -> [sparrow_spectra::Spectrum<$R>; $crate::N_LOBES] {
+            match self {
+                $( $Enum::$Variant(m) => m.lobes(wo, wi), )*
+            }
+        }
+    };
+}
+pub(crate) use dispatch_lobes;
+
 /// The contract of the enum over one number type.
 ///
 /// Not generic, so that it is compiled here once and not again in every crate that calls it.
@@ -155,6 +201,7 @@ macro_rules! dispatch {
                     $( $Enum::$Variant(m) => $Enum::$Variant(m.regularized()), )*
                 }
             }
+            $crate::registry::dispatch_lobes! { $Enum, $Trait, $R: $($Variant)* }
         }
     };
 }
@@ -225,35 +272,58 @@ macro_rules! models {
 
         /// The models without their number type.
         mod family {
+            use sparrow_math::{LocalDir, Real};
+            use sparrow_spectra::Spectrum;
+
+            use $crate::{$Trait, BsdfSample, Uniforms};
+
             $(
                 pub(super) struct $Variant;
                 impl $crate::batch::Family for $Variant {
-                    type Of<R: sparrow_math::Real> = super::$module::$Type<R>;
+                    type Of<R: Real> = super::$module::$Type<R>;
+                    #[inline(always)]
+                    fn f_cos_pdf<R: Real>(m: &Self::Of<R>, wo: LocalDir<R>, wi: LocalDir<R>) -> (Spectrum<R>, R) {
+                        m.f_cos_pdf(wo, wi)
+                    }
+                    #[inline(always)]
+                    fn sample<R: Real>(m: &Self::Of<R>, wo: LocalDir<R>, u: Uniforms<R>) -> BsdfSample<R> {
+                        m.sample(wo, u)
+                    }
                 }
             )*
         }
 
         /// One match for a whole batch; the loops are monomorphic.
-        impl $Kind {
-            pub(crate) fn eval_columns(
+        impl $crate::Kind for $Kind {
+            const ALL: &'static [Self] = $Kind::ALL;
+            fn name(self) -> &'static str {
+                $Kind::name(self)
+            }
+            fn params(self) -> &'static [$crate::ParamInfo] {
+                $Kind::params(self)
+            }
+            fn about(self) -> $crate::About {
+                $Kind::about(self)
+            }
+            fn eval_columns(
                 self,
                 p: &$crate::batch::ParamColumns<'_>,
                 wo: &$crate::batch::DirColumns<'_>,
                 wi: &$crate::batch::DirColumns<'_>,
                 out: &mut $crate::batch::EvalColumns<'_>,
             ) {
-                                match self {
+                match self {
                     $( $Kind::$Variant => $crate::batch::eval::<family::$Variant>(p, wo, wi, out), )*
                 }
             }
-            pub(crate) fn sample_columns(
+            fn sample_columns(
                 self,
                 p: &$crate::batch::ParamColumns<'_>,
                 wo: &$crate::batch::DirColumns<'_>,
                 u: &[&[f32]; 3],
                 out: &mut $crate::batch::SampleColumns<'_>,
             ) {
-                                match self {
+                match self {
                     $( $Kind::$Variant => $crate::batch::draw::<family::$Variant>(p, wo, u, out), )*
                 }
             }

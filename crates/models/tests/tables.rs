@@ -1,15 +1,15 @@
 //! The tables of all registered models: parameters, names, files, lacks. What the models compute is tried by `sparrow-verify`,
 //! lanes are held to scalars in `batch.rs`.
 
-use sparrow_models::{MAX_CHOICES, MAX_REALS, MAX_SPECTRA, ParamKind, SurfaceKind};
+use sparrow_models::{FibreKind, MAX_CHOICES, MAX_REALS, MAX_SPECTRA, ModelKind, ParamKind, SurfaceKind};
 
 #[test]
 fn tables_fit_the_parameter_block_and_names_are_unique() {
-    let mut names: Vec<&str> = SurfaceKind::ALL.iter().map(|k| k.name()).collect();
+    let mut names: Vec<&str> = ModelKind::all().map(ModelKind::name).collect();
     names.sort_unstable();
     names.dedup();
-    assert_eq!(names.len(), SurfaceKind::ALL.len());
-    for &kind in SurfaceKind::ALL {
+    assert_eq!(names.len(), ModelKind::all().count());
+    for kind in ModelKind::all() {
         let count = |of: fn(&ParamKind) -> bool| kind.params().iter().filter(|p| of(&p.kind)).count();
         assert!(count(|k| matches!(k, ParamKind::Real)) <= MAX_REALS, "{}", kind.name());
         assert!(count(|k| matches!(k, ParamKind::Choice(_))) <= MAX_CHOICES, "{}", kind.name());
@@ -18,7 +18,7 @@ fn tables_fit_the_parameter_block_and_names_are_unique() {
             "{}",
             kind.name()
         );
-        assert_eq!(SurfaceKind::from_name(kind.name()), Some(kind));
+        assert_eq!(ModelKind::from_name(kind.name()), Some(kind));
         for p in kind.params() {
             assert!(p.range[0] <= p.default && p.default <= p.range[1] && !p.doc.is_empty(), "{}", p.name);
         }
@@ -26,22 +26,26 @@ fn tables_fit_the_parameter_block_and_names_are_unique() {
 }
 
 #[test]
-fn every_file_of_the_folder_is_registered() {
-    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/src/surface");
-    let files: Vec<String> = std::fs::read_dir(folder)
-        .expect("the folder of models")
-        .filter_map(|f| f.ok()?.file_name().to_str()?.strip_suffix(".rs").map(String::from))
-        .filter(|f| f != "mod")
-        .collect();
-    assert_eq!(files.len(), SurfaceKind::ALL.len(), "{files:?}");
-    for f in files {
-        assert!(SurfaceKind::from_name(&f).is_some(), "{f}.rs is not in the table of surface/mod.rs");
+fn every_file_of_the_folders_is_registered() {
+    let surfaces: Vec<&str> = SurfaceKind::ALL.iter().map(|k| k.name()).collect();
+    let fibres: Vec<&str> = FibreKind::ALL.iter().map(|k| k.name()).collect();
+    for (folder, names) in [("surface", surfaces), ("fibre", fibres)] {
+        let path = format!("{}/src/{folder}", env!("CARGO_MANIFEST_DIR"));
+        let files: Vec<String> = std::fs::read_dir(path)
+            .expect("the folder of models")
+            .filter_map(|f| f.ok()?.file_name().to_str()?.strip_suffix(".rs").map(String::from))
+            .filter(|f| f != "mod")
+            .collect();
+        assert_eq!(files.len(), names.len(), "{files:?}");
+        for f in files {
+            assert!(names.contains(&f.as_str()), "{f}.rs is not in the table of {folder}/mod.rs");
+        }
     }
 }
 
 #[test]
 fn what_a_model_lacks_is_said_of_choices_that_it_has() {
-    for &kind in SurfaceKind::ALL {
+    for kind in ModelKind::all() {
         for lack in kind.about().lacks {
             assert!(!lack.reason.is_empty(), "{}", kind.name());
             for (param, choices) in lack.when {

@@ -2,17 +2,17 @@
 
 use std::sync::Arc;
 
-use sparrow_geometry::{BilinearMesh, Geometry, Shape, ShapeInstance, TriangleMesh};
-use sparrow_math::{Transform, Vec3};
+use sparrow_geometry::{BilinearMesh, CurveSet, Geometry, Shape, ShapeInstance, TriangleMesh};
+use sparrow_math::{Real, Transform, Vec3};
+use sparrow_mis::Mis;
 use sparrow_scene::{
-    AreaLightId, FloatTexture, FloatTextureId, MaterialId, Mesh, SceneDesc, ShapeDesc, ShapeKind,
-    SpectrumTexture, TextureFilter,
+    AreaLightId, CurveBasis, CurveKind, Curves, FloatTexture, FloatTextureId, MaterialId, Mesh, SceneDesc,
+    ShapeDesc, ShapeKind, SpectrumTexture, TextureFilter,
 };
 
 use crate::camera::Camera;
 use crate::light::LightBuild;
 use crate::material::Material;
-use crate::mis::Mis;
 use crate::scene::Scene;
 use crate::texture::Textures;
 
@@ -52,7 +52,7 @@ impl Parts {
 ///
 /// # Errors
 /// Images that cannot be read and settings that contradict each other, all at once.
-pub fn compile(mut desc: SceneDesc, mis: Mis) -> Result<Compiled, CompileError> {
+pub fn compile(mut desc: SceneDesc) -> Result<Compiled, CompileError> {
     let (mut faults, mut notes) = (Vec::new(), Vec::new());
     let mut textures = Textures::new(&desc, &mut faults);
     let (materials, index) = compile_materials(&desc, &mut textures, &mut faults);
@@ -68,7 +68,7 @@ pub fn compile(mut desc: SceneDesc, mis: Mis) -> Result<Compiled, CompileError> 
         ));
     }
 
-    let compensate = desc.integrator.mis_compensation && !matches!(mis, Mis::LightOnly);
+    let compensate = desc.integrator.mis_compensation && desc.integrator.mis != Mis::LightOnly;
     let lights = LightBuild { desc: &desc, geometry: &geometry, emitters: &emitters, compensate }
         .build(&mut faults, &mut notes);
     if !faults.is_empty() {
@@ -127,6 +127,10 @@ fn compile_shapes(shapes: impl Iterator<Item = ShapeDesc>) -> Parts {
         let kind = core::mem::replace(&mut s.kind, ShapeKind::Mesh(Arc::default()));
         match kind {
             ShapeKind::Mesh(mesh) => mesh_shapes(mesh, &s, flip, &mut parts),
+            ShapeKind::Curves(curves) => {
+                let curves = Shape::Curves(curve_set(curves, &s.to_world));
+                parts.push(curves, Transform::IDENTITY, flip, &s);
+            }
             ShapeKind::Sphere { radius, z_min, z_max, phi_max } => {
                 let shape = Shape::Sphere { radius, z_min, z_max, phi_max: radians(phi_max) };
                 parts.push(shape, s.to_world, flip, &s);
@@ -174,6 +178,35 @@ fn mesh_shapes(mesh: Arc<Mesh>, s: &ShapeDesc, flip: bool, parts: &mut Parts) {
         let tri = TriangleMesh { p, indices: triangles, n, s: tangents, uv };
         parts.push(Shape::Triangles(tri), Transform::IDENTITY, flip, s);
     }
+}
+
+/// Curves in world space. Of an uneven scaling radii get the mean, so that sections stay round.
+fn curve_set(curves: Arc<Curves>, to_world: &Transform) -> CurveSet {
+    let Curves { mut points, strands, basis, kind, mut normals, split_depth } =
+        Arc::try_unwrap(curves).unwrap_or_else(|shared| (*shared).clone());
+    if !to_world.is_identity() {
+        let scale = Real::pow(to_world.determinant().abs(), 1.0 / 3.0) as f32;
+        for [x, y, z, r] in &mut points {
+            let p = to_world.point(Vec3 { x: *x, y: *y, z: *z }.to_f64()).to_f32();
+            [*x, *y, *z, *r] = [p.x, p.y, p.z, *r * scale];
+        }
+        for n in &mut normals {
+            *n = to_world.normal(Vec3::from(*n).to_f64()).normalized().to_f32().to_array();
+        }
+    }
+    let basis = match basis {
+        CurveBasis::Linear => sparrow_geometry::CurveBasis::Linear,
+        CurveBasis::Bezier => sparrow_geometry::CurveBasis::Bezier,
+        CurveBasis::BSpline => sparrow_geometry::CurveBasis::BSpline,
+        CurveBasis::CatmullRom => sparrow_geometry::CurveBasis::CatmullRom,
+    };
+    let kind = match kind {
+        CurveKind::Flat => sparrow_geometry::CurveKind::Flat,
+        CurveKind::Cylinder => sparrow_geometry::CurveKind::Cylinder,
+        CurveKind::Ribbon => sparrow_geometry::CurveKind::Ribbon,
+        CurveKind::Round => sparrow_geometry::CurveKind::Round,
+    };
+    CurveSet { points, strands, basis, kind, normals, split_depth }
 }
 
 fn needs_footprint(desc: &SceneDesc) -> bool {

@@ -15,7 +15,6 @@ pub mod filter;
 mod integrator;
 pub mod light;
 mod material;
-mod mis;
 mod plan;
 mod render;
 pub mod sampler;
@@ -26,7 +25,6 @@ mod texture;
 
 pub use compile::{CompileError, Compiled, compile};
 pub use integrator::{PathIntegrator, RayCounts};
-pub use mis::Mis;
 pub use plan::{FilmSensor, RenderPlan};
 pub use render::{Progress, RenderError, RenderOptions, RenderStats, render};
 pub use scatter::{Density, Scatter, ScatterSample};

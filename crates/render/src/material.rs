@@ -2,10 +2,11 @@
 
 use std::sync::Arc;
 
-use sparrow_models::{MAX_CHOICES, MAX_REALS, MAX_SPECTRA, ParamBlock, ParamKind, Surface, SurfaceKind};
+use sparrow_models::{MAX_CHOICES, MAX_REALS, MAX_SPECTRA, ModelKind, ParamBlock, ParamKind};
 use sparrow_scene::{FloatTextureId, MaterialDesc, RealParam, SceneDesc, SpectrumParam, SpectrumTextureId};
 use sparrow_spectra::{DenseSpectrum, RgbRole, Spectrum, Wavelengths};
 
+use crate::scatter::LocalModel;
 use crate::spectrum::SceneSpectrum;
 use crate::texture::{TextureContext, Textures};
 
@@ -28,7 +29,7 @@ enum SpectrumSource {
 /// A material of a compiled scene.
 #[derive(Clone, Debug)]
 pub(crate) struct Material {
-    kind: SurfaceKind,
+    kind: ModelKind,
     reals: Vec<RealSource>,
     spectra: Vec<SpectrumSource>,
     choices: [u8; MAX_CHOICES],
@@ -69,11 +70,17 @@ impl Material {
         Some(Material { kind, reals, spectra, choices, dispersive, textured })
     }
 
-    /// Evaluates the parameters at a point and binds them.
+    /// Evaluates the parameters at a point and binds them; `h` is the ray's offset from the axis, should the point lie on a fibre.
     #[inline]
-    pub(crate) fn bind(&self, textures: &Textures, ctx: &TextureContext, w: &Wavelengths) -> Surface<f32> {
+    pub(crate) fn bind(
+        &self,
+        textures: &Textures,
+        ctx: &TextureContext,
+        h: f32,
+        w: &Wavelengths,
+    ) -> LocalModel {
         let mut block =
-            ParamBlock { choices: self.choices, lambda: Spectrum(w.lambda), ..ParamBlock::default() };
+            ParamBlock { choices: self.choices, lambda: Spectrum(w.lambda), h, ..ParamBlock::default() };
         for (slot, source) in block.reals.iter_mut().zip(&self.reals) {
             *slot = match source {
                 RealSource::Constant(v) => *v,
@@ -89,7 +96,10 @@ impl Material {
                 SpectrumSource::KOfTexture(id) => textures.value(*id, ctx, w).map(k_of_reflectance),
             };
         }
-        self.kind.bind(&block)
+        match self.kind {
+            ModelKind::Surface(kind) => LocalModel::Surface(kind.bind(&block)),
+            ModelKind::Fibre(kind) => LocalModel::Fibre(kind.bind(&block)),
+        }
     }
 }
 

@@ -1,11 +1,10 @@
 //! How a picture is taken of a scene: everything a render needs beside the scene itself.
 
-use sparrow_scene::{FilterDesc, IntegratorDesc, RandomizeName, SamplerDesc, SamplerName, SceneDesc};
+use sparrow_scene::{FilterDesc, RandomizeName, SamplerDesc, SamplerName, SceneDesc};
 use sparrow_spectra::{Sensor, Spectrum, Wavelengths};
 
 use crate::filter::{Filter, FilterSampler};
 use crate::integrator::PathIntegrator;
-use crate::mis::Mis;
 use crate::sampler::{Randomize, Sampler, SamplerConfig, SamplerKind};
 
 /// Sampler, filter, sensor and integrator of a render.
@@ -49,22 +48,14 @@ impl RenderPlan {
     /// From a description.
     ///
     /// # Errors
-    /// A sensor or an MIS heuristic that does not exist, each with what does.
+    /// A sensor that does not exist, with those that do.
     pub fn new(desc: &SceneDesc) -> Result<RenderPlan, Vec<String>> {
-        let mut faults = Vec::new();
         let film = &desc.film;
-        let mis = mis(&desc.integrator).unwrap_or_else(|e| {
-            faults.push(e);
-            Mis::Balance
-        });
         let ratio = film.exposure_time * film.iso / 100.0;
         let sensor = Sensor::new(&film.sensor, film.color_space, ratio, film.white_balance);
-        let Some(sensor) = sensor.filter(|_| faults.is_empty()) else {
-            if faults.is_empty() {
-                let known = Sensor::names().join(", ");
-                faults.push(format!("there is no sensor `{}`; known are {known}", film.sensor));
-            }
-            return Err(faults);
+        let Some(sensor) = sensor else {
+            let known = Sensor::names().join(", ");
+            return Err(vec![format!("there is no sensor `{}`; known are {known}", film.sensor)]);
         };
         let sampler = Sampler::new(&sampler_config(&desc.sampler, desc.seed, film.resolution));
         Ok(RenderPlan {
@@ -74,7 +65,7 @@ impl RenderPlan {
                 sensor,
                 max_component: film.max_component_value,
             },
-            integrator: PathIntegrator::new(&desc.integrator, mis),
+            integrator: PathIntegrator::new(&desc.integrator),
             bounds: film.pixel_bounds,
             samples_per_pixel: sampler.samples_per_pixel(),
             sampler,
@@ -85,19 +76,6 @@ impl RenderPlan {
     pub fn size(&self) -> [u32; 2] {
         let [x0, x1, y0, y1] = self.bounds;
         [x1.saturating_sub(x0), y1.saturating_sub(y0)]
-    }
-}
-
-/// The heuristic; switching one technique off leaves all to the other.
-fn mis(desc: &IntegratorDesc) -> Result<Mis, String> {
-    match (desc.sample_lights, desc.sample_bsdf) {
-        (true, true) => desc.mis.parse(),
-        (true, false) => Ok(Mis::LightOnly),
-        (false, true) => Ok(Mis::BsdfOnly),
-        (false, false) => {
-            Err("neither lights nor the BSDF are sampled; set \"samplelights\" or \"samplebsdf\" to true"
-                .into())
-        }
     }
 }
 

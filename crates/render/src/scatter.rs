@@ -1,8 +1,8 @@
 //! A reflection model at a point, in world space, one ray at a time.
 
 use sparrow_geometry::SurfacePoint;
-use sparrow_math::{Frame, Vec3};
-use sparrow_models::{Bsdf, Surface, Uniforms};
+use sparrow_math::{Frame, LocalDir, Vec3};
+use sparrow_models::{Bcsdf, Bsdf, BsdfSample, Fibre, Surface, Uniforms};
 use sparrow_spectra::Spectrum;
 
 /// How likely a sampled direction was.
@@ -27,41 +27,103 @@ pub struct ScatterSample {
     pub eta: f32,
 }
 
+/// A model with its parameters bound: of a surface, whose cosine is that with the normal, or of a fibre, whose cosine is its own.
+#[derive(Clone, Copy, Debug)]
+#[allow(clippy::large_enum_variant, reason = "models live on the stack, by value")]
+pub enum LocalModel {
+    /// z is the shading normal, x the tangent.
+    Surface(Surface<f32>),
+    /// x is the fibre, z the normal where it was met.
+    Fibre(Fibre<f32>),
+}
+
+impl LocalModel {
+    #[inline]
+    fn has_smooth_lobe(&self) -> bool {
+        match self {
+            LocalModel::Surface(m) => m.has_smooth_lobe(),
+            LocalModel::Fibre(m) => m.has_smooth_lobe(),
+        }
+    }
+    #[inline]
+    fn regularized(self) -> LocalModel {
+        match self {
+            LocalModel::Surface(m) => LocalModel::Surface(m.regularized()),
+            LocalModel::Fibre(m) => LocalModel::Fibre(m.regularized()),
+        }
+    }
+    #[inline]
+    fn f_cos_pdf(&self, wo: LocalDir<f32>, wi: LocalDir<f32>) -> (Spectrum<f32>, f32) {
+        match self {
+            LocalModel::Surface(m) => m.f_cos_pdf(wo, wi),
+            LocalModel::Fibre(m) => m.f_cos_pdf(wo, wi),
+        }
+    }
+    #[inline]
+    fn sample(&self, wo: LocalDir<f32>, u: Uniforms<f32>) -> BsdfSample<f32> {
+        match self {
+            LocalModel::Surface(m) => m.sample(wo, u),
+            LocalModel::Fibre(m) => m.sample(wo, u),
+        }
+    }
+    /// The frame it is written for. A fibre's x is the tangent itself, whatever the shading normal.
+    #[inline]
+    fn frame(&self, point: &SurfacePoint) -> Frame<f32> {
+        match self {
+            LocalModel::Surface(_) => Frame::from_zx(point.ns, point.tangent),
+            LocalModel::Fibre(_) => frame_of_fibre(point.tangent, point.ns),
+        }
+    }
+}
+
+/// The frame whose x is the tangent and whose z comes nearest to the normal.
+#[inline]
+fn frame_of_fibre(tangent: Vec3<f32>, normal: Vec3<f32>) -> Frame<f32> {
+    let length2 = tangent.length2();
+    if !(length2 > 1e-30) {
+        return Frame::from_z(normal);
+    }
+    let x = tangent * (1.0 / length2.sqrt());
+    // Built around x, then turned: x becomes the first axis, the normal the third.
+    let f = Frame::from_zx(x, normal);
+    Frame { x, y: -f.y, z: f.x }
+}
+
 /// A reflection model in the shading frame of a point: the one door from world to local directions.
 #[derive(Clone, Copy, Debug)]
 pub struct Scatter {
     frame: Frame<f32>,
-    surface: Surface<f32>,
+    model: LocalModel,
 }
 
 impl Scatter {
     /// Places a model at a point.
     #[inline]
-    pub fn new(point: &SurfacePoint, surface: Surface<f32>) -> Scatter {
-        Scatter { frame: Frame::from_zx(point.ns, point.tangent), surface }
+    pub fn new(point: &SurfacePoint, model: LocalModel) -> Scatter {
+        Scatter { frame: model.frame(point), model }
     }
     /// There is a lobe that light sampling can hit.
     #[inline]
     pub fn has_smooth_lobe(&self) -> bool {
-        self.surface.has_smooth_lobe()
+        self.model.has_smooth_lobe()
     }
     /// With narrow lobes widened.
     #[inline]
     #[must_use]
     pub fn regularized(self) -> Scatter {
-        Scatter { surface: self.surface.regularized(), ..self }
+        Scatter { model: self.model.regularized(), ..self }
     }
     /// Value times cosine, and the density with which [`sample`](Self::sample) returns `wi`.
     #[inline]
     pub fn f_cos_pdf(&self, wo: Vec3<f32>, wi: Vec3<f32>) -> (Spectrum<f32>, f32) {
-        self.surface.f_cos_pdf(self.frame.to_local(wo), self.frame.to_local(wi))
+        self.model.f_cos_pdf(self.frame.to_local(wo), self.frame.to_local(wi))
     }
     /// Draws a direction; none where the path ends.
     #[inline]
     pub fn sample(&self, wo: Vec3<f32>, lobe: f32, dir: [f32; 2]) -> Option<ScatterSample> {
-        let s = self.surface.sample(self.frame.to_local(wo), Uniforms { lobe, dir });
+        let s = self.model.sample(self.frame.to_local(wo), Uniforms { lobe, dir });
         let finite = s.weight.is_finite() && s.density.is_finite();
-        debug_assert!(finite, "{:?} returned {s:?}", self.surface);
+        debug_assert!(finite, "{:?} returned {s:?}", self.model);
         if !s.valid || !finite {
             return None;
         }

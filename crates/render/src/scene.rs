@@ -2,13 +2,13 @@
 
 use sparrow_geometry::{Geometry, Hit, Ray, SurfacePoint};
 use sparrow_math::Vec3;
+use sparrow_mis::Mis;
 use sparrow_scene::FloatTextureId;
 use sparrow_spectra::{Spectrum, Wavelengths};
 
 use crate::camera::Camera;
 use crate::light::{LightSample, Lights, LitPoint, Target};
 use crate::material::Material;
-use crate::mis::Mis;
 use crate::scatter::Scatter;
 use crate::texture::{TextureContext, Textures};
 
@@ -37,7 +37,7 @@ pub struct Scene {
 pub struct LastVertex {
     /// Where it was.
     pub at: LitPoint,
-    /// Density of the direction taken, in 1/sr.
+    /// Density of the direction taken, in 1/sr; zero where it does not look for lights.
     pub pdf: f32,
 }
 
@@ -98,7 +98,10 @@ impl Scene {
         w: &Wavelengths,
     ) -> Spectrum<f32> {
         let weight = |light: u32, pdf: &dyn Fn(&LitPoint) -> f32| {
-            last.map_or(1.0, |v| mis.bsdf_weight(v.pdf, self.lights.probability(&v.at, light) * pdf(&v.at)))
+            last.map_or(1.0, |v| {
+                let p_light = || self.lights.probability(&v.at, light) * pdf(&v.at);
+                if v.pdf > 0.0 { mis.bsdf_weight(v.pdf, p_light()) } else { 0.0 }
+            })
         };
         let Some(point) = hit else {
             return self.lights.infinite().iter().fold(Spectrum::ZERO, |sum, &light| {
@@ -124,7 +127,8 @@ impl Scene {
             w.terminate_secondary();
         }
         let ctx = self.texture_context(point, material.textured && self.needs_footprint);
-        Some(Scatter::new(point, material.bind(&self.textures, &ctx, w)))
+        let h = fibre_offset(point);
+        Some(Scatter::new(point, material.bind(&self.textures, &ctx, h, w)))
     }
 
     /// Chooses a light for a point and draws a direction towards it; the density includes the choice.
@@ -170,6 +174,11 @@ impl Scene {
         }
         ctx
     }
+}
+
+/// The ray's offset from the axis of a fibre, in radii: `2 v - 1`, as pbrt-v4 has it on any shape.
+fn fibre_offset(point: &SurfacePoint) -> f32 {
+    (2.0 * point.uv[1] - 1.0).clamp(-1.0, 1.0)
 }
 
 /// The change of (u, v) that comes nearest to moving the point by `dp`, by least squares.

@@ -20,6 +20,7 @@
 
 mod build;
 mod check;
+pub mod curve_files;
 mod desc;
 mod diagnostic;
 mod lexer;

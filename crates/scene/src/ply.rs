@@ -49,7 +49,7 @@ pub enum Place {
 
 impl Place {
     /// What follows the path in a message: `path:12` as editors know it, or `path: byte 345`.
-    fn suffix(self) -> String {
+    pub(crate) fn suffix(self) -> String {
         match self {
             Place::Line(n) => format!(":{n}"),
             Place::Byte(n) => format!(": byte {n}"),

@@ -9,7 +9,7 @@
 use std::path::Path;
 
 use sparrow_math::{Vec3, vec3};
-use sparrow_models::{ParamKind, SurfaceKind};
+use sparrow_models::{FibreKind, ModelKind, ParamKind, SurfaceKind};
 use sparrow_scene::*;
 use sparrow_spectra::ColorSpace;
 
@@ -86,7 +86,10 @@ fn attributes_are_saved_and_brought_back() {
     assert!(a.area_light.is_some() && b.area_light.is_none());
     assert!(near(origin(&s, 1), [0.0; 3]));
     let model = |shape: &ShapeDesc| s.materials[shape.material.0 as usize].model;
-    assert_eq!((model(a), model(b)), (Some(SurfaceKind::Lambert), Some(SurfaceKind::Conductor)));
+    assert_eq!(
+        (model(a), model(b)),
+        (Some(SurfaceKind::Lambert.into()), Some(SurfaceKind::Conductor.into()))
+    );
 }
 
 #[test]
@@ -121,7 +124,7 @@ fn materials_may_be_named_before_they_are_made() {
          MakeNamedMaterial \"m\" \"string type\" \"dielectric\" \"float eta\" 1.3",
     );
     let m = &s.materials[s.shapes[1].material.0 as usize];
-    assert_eq!((m.name.as_deref(), m.model), (Some("m"), Some(SurfaceKind::Dielectric)));
+    assert_eq!((m.name.as_deref(), m.model), (Some("m"), Some(SurfaceKind::Dielectric.into())));
 }
 
 /// The constant that a parameter of a material holds.
@@ -187,7 +190,7 @@ fn glass_disperses_only_by_a_spectrum_that_varies() {
 fn diffuse_transmission_takes_a_scale() {
     let s = scene("WorldBegin Material \"diffusetransmission\" \"float scale\" 2");
     let m = &s.materials[1];
-    assert_eq!(m.model, Some(SurfaceKind::DiffuseTransmission));
+    assert_eq!(m.model, Some(SurfaceKind::DiffuseTransmission.into()));
     let SpectrumParam::Texture(id) = spectral(m, "reflectance") else { panic!() };
     let SpectrumTexture::Scale(tex, by) = s.spectrum_textures[id.0 as usize] else { panic!() };
     let (tex, by) = (&s.spectrum_textures[tex.0 as usize], &s.float_textures[by.0 as usize]);
@@ -197,11 +200,11 @@ fn diffuse_transmission_takes_a_scale() {
 
 #[test]
 fn every_model_of_the_registry_is_a_material_with_its_own_parameters() {
-    for kind in SurfaceKind::ALL {
+    for kind in ModelKind::all() {
         let text = format!("WorldBegin Material \"{}\" Shape \"sphere\"", kind.name());
         let s = scene(&text);
         let m = &s.materials[1];
-        assert_eq!(m.model, Some(*kind));
+        assert_eq!(m.model, Some(kind));
         let count = |of: fn(&ParamKind) -> bool| kind.params().iter().filter(|p| of(&p.kind)).count();
         let n_reals = count(|k| matches!(k, ParamKind::Real));
         let n_choices = count(|k| matches!(k, ParamKind::Choice(_)));
@@ -217,6 +220,34 @@ fn every_model_of_the_registry_is_a_material_with_its_own_parameters() {
 }
 
 #[test]
+fn hair_absorbs_as_pbrt_says() {
+    let hair = |params: &str| scene(&format!("WorldBegin Material \"hair\" {params}"));
+    // Eumelanin 1.3 unless something is said.
+    let absorption = |s: &SceneDesc| {
+        let m = &s.materials[1];
+        assert_eq!(m.model, Some(FibreKind::Hair.into()));
+        (rgb(s, m), m.choices[0])
+    };
+    let brown = [0.419, 0.697, 1.37].map(|v| (f64::from(1.3_f32) * v) as f32);
+    assert_eq!(absorption(&hair("")), (Some(brown), 0));
+    assert_eq!(absorption(&hair("\"float eumelanin\" 1.3")), (Some(brown), 0));
+    let red = [0.187, 0.4, 1.05].map(|v: f64| v as f32);
+    assert_eq!(absorption(&hair("\"float pheomelanin\" 1")), (Some(red), 0));
+    assert_eq!(absorption(&hair("\"rgb sigma_a\" [1 2 3]")), (Some([1.0, 2.0, 3.0]), 0));
+    assert_eq!(hair("\"rgb color\" [.1 .2 .3]").materials[1].choices[0], 1);
+    assert_eq!(hair("\"rgb reflectance\" [.1 .2 .3]").materials[1].choices[0], 1);
+}
+
+/// The absorption of a hair, where it is an RGB.
+fn rgb(s: &SceneDesc, m: &MaterialDesc) -> Option<[f32; 3]> {
+    let SpectrumParam::Texture(id) = m.spectra.first()? else { return None };
+    let SpectrumTexture::Constant(SpectrumDesc::Rgb(rgb, _)) = s.spectrum_textures.get(id.0 as usize)? else {
+        return None;
+    };
+    Some(*rgb)
+}
+
+#[test]
 fn stand_ins_keep_what_they_can() {
     let s = scene(
         "WorldBegin MakeNamedMaterial \"a\" \"string type\" \"interface\" \
@@ -224,7 +255,7 @@ fn stand_ins_keep_what_they_can() {
          Material \"mix\" \"string materials\" [\"a\" \"b\"] Material \"measured\" \"string filename\" \"x\"",
     );
     let mix = &s.materials[3];
-    assert_eq!((mix.type_name.as_str(), mix.model), ("mix", Some(SurfaceKind::Dielectric)));
+    assert_eq!((mix.type_name.as_str(), mix.model), ("mix", Some(SurfaceKind::Dielectric.into())));
     assert_eq!(constant(&s, real(mix, "eta")), 1.25);
     assert_eq!(spectrum(&s, spectral(&s.materials[4], "reflectance")), &SpectrumDesc::Constant(0.5));
 }
@@ -242,13 +273,13 @@ fn coated_materials_have_the_parameters_and_defaults_of_pbrt() {
     let values = |m: usize, names: &[&str]| -> Vec<f32> {
         names.iter().map(|n| constant(&s, real(&s.materials[m], n))).collect()
     };
-    assert_eq!(s.materials[1].model, Some(SurfaceKind::CoatedDiffuse));
+    assert_eq!(s.materials[1].model, Some(SurfaceKind::CoatedDiffuse.into()));
     let of_diffuse = ["alpha_x", "alpha_y", "eta", "thickness"];
     assert_eq!(values(1, &of_diffuse), [0.0, 0.0, 1.5, 0.01]);
     assert_eq!(spectrum(&s, spectral(&s.materials[1], "reflectance")), &SpectrumDesc::Constant(0.5));
     assert!(matches!(real(&s.materials[1], "alpha_x"), RealParam::RoughnessToAlpha(_)));
 
-    assert_eq!(s.materials[2].model, Some(SurfaceKind::CoatedConductor));
+    assert_eq!(s.materials[2].model, Some(SurfaceKind::CoatedConductor.into()));
     let of_conductor = ["alpha_x", "alpha_y", "alpha_base_x", "alpha_base_y", "eta", "thickness"];
     assert_eq!(values(2, &of_conductor), [0.0, 0.0, 0.0, 0.0, 1.5, 0.01]);
     let k = |m: usize| spectrum(&s, spectral(&s.materials[m], "k_base"));
@@ -278,7 +309,7 @@ fn an_empty_world_has_the_defaults_of_pbrt() {
     assert_eq!(s.sampler.randomize, RandomizeName::FastOwen);
     assert_eq!((s.integrator.name, s.integrator.max_depth), (IntegratorName::Path, 5));
     assert_eq!((s.integrator.light_sampler, s.integrator.regularize), (LightSamplerName::Bvh, false));
-    assert_eq!((s.seed, s.materials.len(), s.materials[0].model), (0, 1, Some(SurfaceKind::Lambert)));
+    assert_eq!((s.seed, s.materials.len(), s.materials[0].model), (0, 1, Some(SurfaceKind::Lambert.into())));
     assert_eq!(spectrum(&s, &s.materials[0].spectra[0]), &SpectrumDesc::Constant(0.5));
 }
 
@@ -315,11 +346,11 @@ fn integrators_resolve_to_ours() {
     assert_eq!(integrator("\"volpath\" \"integer maxdepth\" 9").max_depth, 9);
     let i = integrator("\"directlighting\" \"string mis\" \"power:1.5\" \"string lightsampler\" \"power\"");
     assert_eq!(
-        (i.name, i.mis.as_str(), i.light_sampler),
+        (i.name, i.mis.to_string().as_str(), i.light_sampler),
         (IntegratorName::DirectLighting, "power:1.5", LightSamplerName::Power)
     );
     let i = integrator("\"simplepath\" \"bool samplelights\" false");
-    assert!(!i.sample_lights && i.sample_bsdf);
+    assert_eq!(i.mis.to_string(), "bsdf-only");
 }
 
 #[test]

@@ -24,6 +24,7 @@ pub struct Case {
     /// Polar angle and azimuth of `wo`, in degrees.
     pub view: [f64; 2],
     table: &'static [ParamInfo],
+    fibre: bool,
 }
 
 /// How the numbers of a case are drawn.
@@ -44,6 +45,7 @@ impl Case {
     /// The `index`-th case: what is pinned stays; what is not is drawn, or at its default where anything is pinned.
     pub(crate) fn draw(
         table: &'static [ParamInfo],
+        fibre: bool,
         pins: &Pins,
         index: usize,
         style: Style,
@@ -94,7 +96,11 @@ impl Case {
         }
         params.reals = params.reals.map(|v| f64::from(v as f32));
         params.spectra = params.spectra.map(|v| Spectrum(v.0.map(|v| f64::from(v as f32))));
-        Case { params, view: pins.view.unwrap_or_else(|| view(index, rng)), table }
+        let view = pins.view.unwrap_or_else(|| view(index, rng));
+        if fibre {
+            params.h = f64::from(pins.h.unwrap_or_else(|| offset(index, rng)) as f32);
+        }
+        Case { params, view, table, fibre }
     }
 
     /// Sets a choice by its name; a name that is not there changes nothing.
@@ -145,6 +151,9 @@ impl Case {
                 }
             };
         }
+        if self.fibre {
+            let _ = write!(out, "h={} ", self.params.h as f32);
+        }
         let _ = write!(out, "wo={},{}", self.view[0], self.view[1]);
         out
     }
@@ -158,7 +167,14 @@ fn turn(index: usize, parameter: usize, n: usize) -> u8 {
 }
 
 fn is_roughness(info: &ParamInfo) -> bool {
-    info.name.starts_with("alpha") || info.name.contains("roughness")
+    let name = info.name;
+    (name.starts_with("alpha") || name.starts_with("beta") || name.contains("roughness")) && info.unit == "1"
+}
+
+/// The offset of the ray across a fibre: along the axis and at the rim as well.
+fn offset(index: usize, rng: &mut Random) -> f64 {
+    let ends = [0.0, 0.999, -0.6, -1.0];
+    if index < ends.len() { ends[index] } else { rng.within(-1.0, 1.0) }
 }
 
 fn real(info: &ParamInfo, index: usize, style: Style, rng: &mut Random) -> f64 {
@@ -227,11 +243,11 @@ mod tests {
     fn words_of_a_case_give_the_case() {
         let mut rng = Random::new(1);
         for index in 0..20 {
-            let case = Case::draw(TABLE, &Pins::default(), index, Style::Common, &mut rng);
+            let case = Case::draw(TABLE, false, &Pins::default(), index, Style::Common, &mut rng);
             let words = case.words();
             let words: Vec<&str> = words.split(' ').collect();
             let pins = Pins::parse(TABLE, &words).unwrap();
-            let again = Case::draw(TABLE, &pins, 3, Style::Common, &mut rng);
+            let again = Case::draw(TABLE, false, &pins, 3, Style::Common, &mut rng);
             assert_eq!(case.words(), again.words());
             assert_eq!(case.params.reals.map(f64::to_bits), again.params.reals.map(f64::to_bits));
             assert_eq!(case.wo(), again.wo());
@@ -242,7 +258,7 @@ mod tests {
     fn roughness_and_angles_reach_their_ends_and_every_choice_is_met() {
         let mut rng = Random::new(2);
         let cases: Vec<_> =
-            (0..8).map(|i| Case::draw(TABLE, &Pins::default(), i, Style::Common, &mut rng)).collect();
+            (0..8).map(|i| Case::draw(TABLE, false, &Pins::default(), i, Style::Common, &mut rng)).collect();
         assert!(cases.iter().any(|c| c.params.reals[0] < 1.01e-3));
         assert!(cases.iter().any(|c| c.wo().z().abs() < 1.01e-3));
         assert!(cases.iter().any(|c| c.wo().z() < 0.0));

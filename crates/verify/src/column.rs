@@ -1,10 +1,11 @@
 //! A model in one number type, behind one face: [`Column`].
 
 use std::fmt::Debug;
+use std::marker::PhantomData;
 
 use sparrow_math::{LocalDir, Real, Vec3};
 use sparrow_models::batch::{self, DirColumns, EvalColumns, ParamColumns, SampleColumns};
-use sparrow_models::{Bsdf, MAX_REALS, MAX_SPECTRA, ParamBlock, SurfaceKind, Uniforms};
+use sparrow_models::{Bcsdf, Bsdf, BsdfSample, Kind, MAX_REALS, MAX_SPECTRA, ParamBlock, Uniforms};
 use sparrow_spectra::{N_LAMBDA, Spectrum};
 
 use crate::question::ColumnName;
@@ -59,24 +60,68 @@ pub trait Column: Debug {
     fn eval(&self, pairs: &[[LocalDir<f64>; 2]], out: &mut Vec<Value>);
 }
 
+/// How a model is asked: by the contract of surfaces, or by that of fibres.
+pub trait Contract<R: Real, M>: Debug {
+    /// Value times cosine, and density.
+    fn f_cos_pdf(model: &M, wo: LocalDir<R>, wi: LocalDir<R>) -> (Spectrum<R>, R);
+    /// One sample.
+    fn sample(model: &M, wo: LocalDir<R>, u: Uniforms<R>) -> BsdfSample<R>;
+}
+
+/// By [`Bsdf`].
+#[derive(Debug)]
+pub struct OfSurface;
+/// By [`Bcsdf`].
+#[derive(Debug)]
+pub struct OfFibre;
+
+impl<R: Real, M: Bsdf<R>> Contract<R, M> for OfSurface {
+    fn f_cos_pdf(model: &M, wo: LocalDir<R>, wi: LocalDir<R>) -> (Spectrum<R>, R) {
+        model.f_cos_pdf(wo, wi)
+    }
+    fn sample(model: &M, wo: LocalDir<R>, u: Uniforms<R>) -> BsdfSample<R> {
+        model.sample(wo, u)
+    }
+}
+impl<R: Real, M: Bcsdf<R>> Contract<R, M> for OfFibre {
+    fn f_cos_pdf(model: &M, wo: LocalDir<R>, wi: LocalDir<R>) -> (Spectrum<R>, R) {
+        model.f_cos_pdf(wo, wi)
+    }
+    fn sample(model: &M, wo: LocalDir<R>, u: Uniforms<R>) -> BsdfSample<R> {
+        model.sample(wo, u)
+    }
+}
+
 /// A model computed one ray at a time.
 #[derive(Debug)]
-pub struct Scalar<R, M> {
+pub struct Scalar<R, M, C = OfSurface> {
     name: ColumnName,
     model: M,
-    number: std::marker::PhantomData<R>,
+    number: PhantomData<(R, C)>,
 }
 
 impl<M: Bsdf<f64>> Scalar<f64, M> {
     /// In double precision.
     pub fn double(model: M) -> Self {
-        Scalar { name: ColumnName::F64, model, number: std::marker::PhantomData }
+        Scalar { name: ColumnName::F64, model, number: PhantomData }
     }
 }
 impl<M: Bsdf<f32>> Scalar<f32, M> {
     /// In single precision.
     pub fn single(model: M) -> Self {
-        Scalar { name: ColumnName::F32, model, number: std::marker::PhantomData }
+        Scalar { name: ColumnName::F32, model, number: PhantomData }
+    }
+}
+impl<M: Bcsdf<f64>> Scalar<f64, M, OfFibre> {
+    /// A fibre in double precision.
+    pub fn double_of_fibre(model: M) -> Self {
+        Scalar { name: ColumnName::F64, model, number: PhantomData }
+    }
+}
+impl<M: Bcsdf<f32>> Scalar<f32, M, OfFibre> {
+    /// A fibre in single precision.
+    pub fn single_of_fibre(model: M) -> Self {
+        Scalar { name: ColumnName::F32, model, number: PhantomData }
     }
 }
 
@@ -87,10 +132,11 @@ fn from<R: Real + Into<f64>>(w: LocalDir<R>) -> Dir {
     LocalDir::new(Vec3 { x: w.x().into(), y: w.y().into(), z: w.z().into() })
 }
 
-impl<R, M> Column for Scalar<R, M>
+impl<R, M, C> Column for Scalar<R, M, C>
 where
     R: Real<Mask = bool> + Into<f64>,
-    M: Bsdf<R> + Debug,
+    M: Debug,
+    C: Contract<R, M>,
 {
     fn name(&self) -> ColumnName {
         self.name
@@ -100,7 +146,7 @@ where
         let wo = to::<R>(wo);
         out.extend(u.iter().map(|u| {
             let u = u.map(R::of);
-            let s = self.model.sample(wo, Uniforms { lobe: u[0], dir: [u[1], u[2]] });
+            let s = C::sample(&self.model, wo, Uniforms { lobe: u[0], dir: [u[1], u[2]] });
             Drawn {
                 wi: from(s.wi),
                 weight: s.weight.0.map(Into::into),
@@ -114,7 +160,7 @@ where
     fn eval(&self, pairs: &[[Dir; 2]], out: &mut Vec<Value>) {
         out.clear();
         out.extend(pairs.iter().map(|[wo, wi]| {
-            let (f_cos, pdf) = self.model.f_cos_pdf(to::<R>(*wo), to::<R>(*wi));
+            let (f_cos, pdf) = C::f_cos_pdf(&self.model, to::<R>(*wo), to::<R>(*wi));
             Value { f_cos: f_cos.0.map(Into::into), pdf: pdf.into() }
         }));
     }
@@ -122,14 +168,14 @@ where
 
 /// A registered model in its batch form, as pictures are rendered from.
 #[derive(Debug)]
-pub struct Batch {
-    kind: SurfaceKind,
+pub struct Batch<K> {
+    kind: K,
     params: ParamBlock<f32>,
 }
 
-impl Batch {
+impl<K: Kind> Batch<K> {
     /// Of a registered model.
-    pub fn new(kind: SurfaceKind, params: ParamBlock<f32>) -> Batch {
+    pub fn new(kind: K, params: ParamBlock<f32>) -> Batch<K> {
         Batch { kind, params }
     }
     fn with_params<T>(&self, work: impl FnOnce(&ParamColumns<'_>) -> T) -> T {
@@ -146,6 +192,7 @@ impl Batch {
         for w in 0..N_LAMBDA {
             columns.lambda[w] = std::slice::from_ref(&p.lambda.0[w]);
         }
+        columns.h = std::slice::from_ref(&p.h);
         work(&columns)
     }
 }
@@ -168,7 +215,7 @@ impl Dirs {
     }
 }
 
-impl Column for Batch {
+impl<K: Kind> Column for Batch<K> {
     fn name(&self) -> ColumnName {
         ColumnName::Lanes
     }
@@ -218,5 +265,6 @@ pub fn narrow(p: &ParamBlock<f64>) -> ParamBlock<f32> {
         spectra: p.spectra.map(|s| Spectrum(s.0.map(|v| v as f32))),
         choices: p.choices,
         lambda: Spectrum(p.lambda.0.map(|v| v as f32)),
+        h: p.h as f32,
     }
 }

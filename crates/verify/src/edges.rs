@@ -36,8 +36,9 @@ fn values(column: &dyn Column, z: f64) -> Option<String> {
         let wo = view(z, phi);
         let mirror = LocalDir::new(vec3(-wo.x(), -wo.y(), wo.z()));
         let up = LocalDir::new(vec3(0.0, 0.0, 1.0));
-        let aside = LocalDir::new(vec3(0.0, 1.0, 0.0));
-        for wi in [wo, mirror, -wo, -mirror, up, -up, aside, view(1e-7, 2.0), view(-1e-4, 4.0)] {
+        let (along, aside) = (LocalDir::new(vec3(1.0, 0.0, 0.0)), LocalDir::new(vec3(0.0, 1.0, 0.0)));
+        for wi in [wo, mirror, -wo, -mirror, up, -up, along, -along, aside, view(1e-7, 2.0), view(-1e-4, 4.0)]
+        {
             pairs.push([wo, wi]);
         }
     }

@@ -35,7 +35,7 @@ pub(crate) fn ask(view: &View<'_>, findings: &mut Vec<Finding>) {
     let mut values: Vec<Value> = Vec::with_capacity(pairs.len());
     double.eval(&pairs, &mut values);
     for (s, v) in smooth.iter().zip(&values) {
-        let scale = s.wi.abs_cos_theta() / (view.wo.abs_cos_theta() * s.density);
+        let scale = view.cosine(s.wi) / (view.cosine(view.wo) * s.density);
         sent.add(v.f_cos.map(|f| f * scale));
     }
     for (energy, what) in [(seen, "of light from all sides"), (sent, "of what one lamp sends")] {

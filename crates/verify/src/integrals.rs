@@ -1,6 +1,7 @@
 //! Questions about all samples of a view: density, samples, mean, furnace.
 
 use sparrow_math::{LocalDir, Real};
+use sparrow_models::fibre_cosine;
 use sparrow_spectra::N_LAMBDA;
 use sparrow_stats::cubature::Stop;
 use sparrow_stats::{Cell, Partition, Random, chi_square};
@@ -28,6 +29,8 @@ pub(crate) struct View<'a> {
     pub(crate) wo: Dir,
     /// Relative index that transmitted light crosses.
     pub(crate) eta: f64,
+    /// Cosines are those of a fibre.
+    pub(crate) fibre: bool,
     /// What all that is drawn depends on: seed and words of the case.
     pub(crate) seed: u64,
     pub(crate) words: &'a str,
@@ -36,6 +39,10 @@ pub(crate) struct View<'a> {
 impl View<'_> {
     pub(crate) fn rng(&self, purpose: &str) -> Random {
         Random::named(self.seed, &format!("{purpose} {}", self.words))
+    }
+    /// The cosine that radiance is received with.
+    pub(crate) fn cosine(&self, w: Dir) -> f64 {
+        if self.fibre { fibre_cosine(w) } else { w.abs_cos_theta() }
     }
     /// Squared index between two directions: 1 on the same side.
     pub(crate) fn squeeze(&self, wi: Dir) -> f64 {

@@ -25,13 +25,14 @@ mod integrals;
 mod pins;
 mod points;
 mod question;
+pub mod reference_fibre;
 mod report;
 mod run;
 mod subject;
 mod tally;
 
 pub use case::Case;
-pub use column::{Batch, Column, Drawn, Scalar, Value, narrow};
+pub use column::{Batch, Column, Contract, Drawn, OfFibre, OfSurface, Scalar, Value, narrow};
 pub use pins::{PinError, Pins};
 pub use question::{ColumnName, Question};
 pub use report::{Claim, Report, Row, Verdict};

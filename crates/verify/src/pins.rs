@@ -4,6 +4,8 @@ use sparrow_models::suggest::remedy;
 use sparrow_models::{ParamInfo, ParamKind};
 use sparrow_spectra::N_LAMBDA;
 
+use crate::subject::Subject;
+
 /// A parameter on the command line that cannot be used.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum PinError {
@@ -35,6 +37,7 @@ pub enum PinError {
 pub struct Pins {
     pub(crate) values: Vec<Option<Pin>>,
     pub(crate) view: Option<[f64; 2]>,
+    pub(crate) h: Option<f64>,
 }
 
 /// A value that was named.
@@ -46,13 +49,36 @@ pub(crate) enum Pin {
 }
 
 impl Pins {
+    /// As [`parse`](Self::parse); a fibre takes `h=OFFSET` besides, the offset of the ray in radii.
+    ///
+    /// # Errors
+    /// Where a name is unknown, or a value is none or out of range.
+    pub fn parse_for(subject: &dyn Subject, words: &[impl AsRef<str>]) -> Result<Pins, PinError> {
+        let mut h = None;
+        let mut rest: Vec<&str> = Vec::new();
+        for word in words.iter().map(AsRef::as_ref) {
+            match word.strip_prefix("h=").filter(|_| subject.is_fibre()) {
+                Some(value) => {
+                    let offset = numbers(value).filter(|v| v.len() == 1 && (-1.0..=1.0).contains(&v[0]));
+                    let wrong = || PinError::Value {
+                        name: "h".to_owned(),
+                        value: value.to_owned(),
+                        form: "a number from -1 to 1".to_owned(),
+                    };
+                    h = Some(offset.ok_or_else(wrong)?[0]);
+                }
+                None => rest.push(word),
+            }
+        }
+        Ok(Pins { h, ..Pins::parse(subject.params(), &rest)? })
+    }
     /// Reads `NAME=VALUE`: a number, four numbers with commas for the wavelengths of a spectrum, a name of a choice;
     /// `wo=THETA,PHI` in degrees is the view.
     ///
     /// # Errors
     /// Where a name is unknown, or a value is none or out of range.
     pub fn parse(table: &[ParamInfo], words: &[impl AsRef<str>]) -> Result<Pins, PinError> {
-        let mut pins = Pins { values: vec![None; table.len()], view: None };
+        let mut pins = Pins { values: vec![None; table.len()], view: None, h: None };
         for word in words {
             let word = word.as_ref();
             let (name, value) = word.split_once('=').ok_or_else(|| PinError::Form(word.to_owned()))?;
@@ -75,7 +101,7 @@ impl Pins {
     }
     /// Nothing was named.
     pub fn is_empty(&self) -> bool {
-        self.view.is_none() && self.values.iter().all(Option::is_none)
+        self.view.is_none() && self.h.is_none() && self.values.iter().all(Option::is_none)
     }
     /// The view was named.
     pub(crate) fn has_view(&self) -> bool {

@@ -113,7 +113,7 @@ fn exchange(
     }
     let mut worst = Comparison::new();
     for (i, [wo, wi]) in pairs.iter().enumerate() {
-        let (co, ci) = (wo.abs_cos_theta(), wi.abs_cos_theta());
+        let (co, ci) = (view.cosine(*wo), view.cosine(*wi));
         let squeeze = view.squeeze(*wi);
         for k in 0..N_LAMBDA {
             // Both sides with both cosines: nothing is divided by one that may be zero.

@@ -130,7 +130,7 @@ fn jobs(subjects: &[&dyn Subject], pins: &Pins, options: &Options) -> Vec<Job> {
                 };
                 // Points begin where the full cases stop, with other angles.
                 let index = if full { index } else { index + 1 };
-                let case = Case::draw(s.params(), pins, index, style, &mut rng);
+                let case = Case::draw(s.params(), s.is_fibre(), pins, index, style, &mut rng);
                 jobs.push(Job { subject, case, full });
             }
             if !full && pins.is_empty() {
@@ -149,7 +149,8 @@ fn claimed(subject: &dyn Subject, seed: u64) -> Vec<Case> {
     let lacks = subject.about().lacks.iter().enumerate().filter(|(_, l)| !l.when.is_empty());
     let case = |claim: usize, lack: &Lack, k: usize| {
         let mut rng = Random::named(seed, &format!("{} claim {claim} {k}", subject.name()));
-        let mut case = Case::draw(subject.params(), &Pins::default(), k + 1, Style::White, &mut rng);
+        let mut case =
+            Case::draw(subject.params(), subject.is_fibre(), &Pins::default(), k + 1, Style::White, &mut rng);
         for (parameter, of) in lack.when {
             case.choose(parameter, of[k % of.len()]);
         }
@@ -172,7 +173,8 @@ fn work(subject: &dyn Subject, job: &Job, sizes: Sizes, seed: u64) -> Done {
     let columns = subject.columns(&job.case.params);
     let words = job.case.words();
     let wo = job.case.wo();
-    let mut view = View { columns: &columns, wo, eta: 1.0, seed, words: &words };
+    let fibre = subject.is_fibre();
+    let mut view = View { columns: &columns, wo, eta: 1.0, fibre, seed, words: &words };
     view.eta = crossed_index(&view);
     let mut findings = Vec::new();
     edges::ask(&columns, &mut findings);

@@ -1,41 +1,41 @@
 //! The bounding volume hierarchy: [`Bvh`].
 //!
-//! A tree with four children a node. Leaves hold up to four triangles, gathered side by side, or up to four
-//! numbers of other primitives, which the owner of the tree tests itself.
+//! A tree with eight children a node. Leaves hold up to eight triangles, gathered side by side, or the number of one
+//! other primitive, which the owner of the tree tests itself.
 
 mod block;
 mod build;
-mod lanes;
 mod node;
-mod split;
+mod pages;
+mod ray_data;
+mod stack;
+#[cfg(test)]
+mod tests;
 mod traverse;
 
 pub(crate) use block::{RawHit, TriBlock, gamma};
 pub(crate) use build::PrimRef;
+pub(crate) use node::Kind;
 use node::{Child, Node};
+use pages::Pages;
 pub(crate) use traverse::Others;
 
 use sparrow_math::Aabb;
 
+use crate::simd::Unit;
+
 /// Primitives a tree can number.
 pub(crate) const MAX_PRIMS: usize = 1 << 28;
 
-/// Marks an unused place of a leaf.
-const UNUSED: u32 = u32::MAX;
-
-/// A leaf of primitives that are not triangles.
-type OtherBlock = [u32; 4];
-
 /// The hierarchy over primitives that are known by number.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Bvh {
-    nodes: Vec<Node>,
-    triangles: Vec<TriBlock>,
-    others: Vec<OtherBlock>,
+    nodes: Pages<Node>,
+    triangles: Pages<TriBlock>,
     root: Child,
-    /// Entries the stack of a traversal may need.
-    stack: usize,
     bounds: Aabb,
+    /// What queries run on.
+    unit: Unit,
 }
 
 impl Bvh {
@@ -46,8 +46,6 @@ impl Bvh {
         self.nodes.len()
     }
     pub(crate) fn bytes(&self) -> usize {
-        self.nodes.len() * size_of::<Node>()
-            + self.triangles.len() * size_of::<TriBlock>()
-            + self.others.len() * size_of::<OtherBlock>()
+        self.nodes.len() * size_of::<Node>() + self.triangles.len() * size_of::<TriBlock>()
     }
 }

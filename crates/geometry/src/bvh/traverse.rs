@@ -1,69 +1,187 @@
 //! Rays through the tree.
 
-use super::block::RawHit;
-use super::node::{Child, Node, RayData};
-use super::{Bvh, UNUSED};
+use super::Bvh;
+use super::block::{RawHit, TriBlock};
+use super::node::{Child, Node, WIDTH};
+use super::ray_data::RayData;
+use super::stack::{Entry, Stack};
 use crate::ray::Ray;
+use crate::simd::{Floats, Kernel, Simd, prefetch};
 
 /// Whoever knows the primitives that are not triangles.
 pub(crate) trait Others {
     /// Offers every point of the ray before `t_max` on primitive `id` to `found`, which answers with the new
     /// `t_max`; returns the last of them.
     fn hit(&self, id: u32, ray: &Ray, t_max: f32, found: &mut impl FnMut(RawHit) -> f32) -> f32;
-}
-
-/// A child and where the ray enters its box, as one number that sorts by that distance.
-///
-/// Distances are not negative, so their bits sort as they do. No entry of a child is 0: the root is nobody's child.
-#[inline(always)]
-fn entry(t: f32, child: Child) -> u64 {
-    u64::from(t.to_bits()) << 32 | u64::from(child.0)
-}
-
-/// What is left to visit, nearest on top.
-struct Stack<const N: usize> {
-    entries: [u64; N],
-    len: usize,
-}
-
-impl<const N: usize> Stack<N> {
-    /// The next child whose box begins before `t_max`.
+    /// Asks for what the test of primitive `id` will read.
     #[inline(always)]
-    fn pop(&mut self, t_max: f32) -> Option<Child> {
-        while self.len > 0 {
-            self.len -= 1;
-            let e = *self.entries.get(self.len)?;
-            if f32::from_bits((e >> 32) as u32) < t_max {
-                return Some(Child(e as u32));
+    fn ahead(&self, _id: u32) {}
+}
+
+/// The lists that a ray reads.
+struct Blocks<'a, O> {
+    others: &'a O,
+    nodes: &'a [Node],
+    triangles: &'a [TriBlock],
+}
+
+/// Asks for the data of a child ahead of its use.
+#[inline(always)]
+fn ahead(blocks: &Blocks<impl Others>, child: Child) {
+    let i = child.index();
+    if !child.is_leaf() {
+        prefetch(blocks.nodes, i);
+    } else if child.is_others() {
+        blocks.others.ahead(i as u32);
+    } else {
+        prefetch(blocks.triangles, i);
+    }
+}
+
+/// Goes on to the nearest child met, one of `mask`, and puts the others on the stack.
+#[inline(always)]
+fn descend<const ANY: bool>(
+    blocks: &Blocks<impl Others>,
+    stack: &mut Stack,
+    node: &Node,
+    mut mask: u32,
+    t: &[f32; WIDTH],
+) -> Child {
+    let mut next = || {
+        let i = mask.trailing_zeros() as usize & (WIDTH - 1);
+        mask &= mask - 1;
+        (Entry::new(t[i], node.child[i]), mask != 0)
+    };
+    let (mut near, mut more) = next();
+    if !more {
+        return near.child();
+    }
+    let bottom = stack.len();
+    ahead(blocks, near.child());
+    while more {
+        let e;
+        (e, more) = next();
+        ahead(blocks, e.child());
+        if ANY {
+            stack.push(e);
+        } else {
+            stack.push(e.max(near));
+            near = e.min(near);
+        }
+    }
+    if !ANY {
+        stack.sort_from(bottom);
+    }
+    near.child()
+}
+
+/// Offers points of the ray before `t_max` to `found`, the nearest boxes first, or with `ANY` in whatever order is quick;
+/// `found` answers with the new `t_max`, which may be negative to end the search.
+#[inline(always)]
+fn walk<S: Simd, const ANY: bool>(
+    bvh: &Bvh,
+    ray: &Ray,
+    others: &impl Others,
+    mut found: impl FnMut(RawHit) -> f32,
+) {
+    let Some(r) = RayData::<S>::new(ray) else { return };
+    let blocks = Blocks { others, nodes: &bvh.nodes, triangles: &bvh.triangles };
+    let mut stack = Stack::new();
+    let (mut t_max, mut child) = (ray.t_max, bvh.root);
+    if child == Child::NONE {
+        return;
+    }
+    loop {
+        let t_limit = S::F8::splat(t_max);
+        while !child.is_leaf() {
+            let node = &blocks.nodes[child.index()];
+            let (mask, t) = node.hit(&r, t_limit);
+            if mask == 0 {
+                let Some(c) = stack.pop(t_max) else { return };
+                child = c;
+            } else {
+                child = descend::<ANY>(&blocks, &mut stack, node, mask, &t.to_array());
             }
         }
-        None
+        t_max = if child.is_others() {
+            others.hit(child.index() as u32, ray, t_max, &mut found)
+        } else {
+            blocks.triangles[child.index()].hit(ray, &r, t_max, &mut found)
+        };
+        if ANY && t_max < 0.0 {
+            return;
+        }
+        let Some(c) = stack.pop(t_max) else { return };
+        child = c;
     }
-    /// Goes on to the nearest child met and puts the others on top. From two on there are no branches: how many
-    /// there are, and in what order, cannot be foretold.
+}
+
+/// One ray through a tree.
+struct Walk<'a, const ANY: bool, O, F> {
+    bvh: &'a Bvh,
+    ray: &'a Ray,
+    others: &'a O,
+    found: F,
+}
+
+impl<const ANY: bool, O: Others, F: FnMut(RawHit) -> f32> Kernel for Walk<'_, ANY, O, F> {
+    type Output = ();
     #[inline(always)]
-    fn descend(&mut self, node: &Node, mask: u32, t: [f32; 4]) -> Child {
-        if mask & (mask - 1) == 0 {
-            return node.child[mask.trailing_zeros() as usize & 3];
+    fn run<S: Simd>(self) {
+        walk::<S, ANY>(self.bvh, self.ray, self.others, self.found);
+    }
+}
+
+/// The first point that `accept` takes, of those that a search offers; the nearest of all unless `ANY`.
+struct Best<A> {
+    accept: A,
+    hit: Option<RawHit>,
+    t_max: f32,
+}
+
+impl<A: Fn(&RawHit) -> bool> Best<A> {
+    #[inline(always)]
+    fn offer<const ANY: bool>(&mut self, h: RawHit) -> f32 {
+        if (self.accept)(&h) {
+            self.t_max = if ANY { f32::NEG_INFINITY } else { h.t };
+            self.hit = Some(h);
         }
-        let key = |i: usize| entry(t[i], node.child[i]) * u64::from(mask >> i & 1);
-        // A sorting network, farthest first; the children missed are 0 and end up beyond the top.
-        let order = |a: u64, b: u64| (a.max(b), a.min(b));
-        let ((a, b), (c, d)) = (order(key(0), key(1)), order(key(2), key(3)));
-        let ((a, c), (b, d)) = (order(a, c), order(b, d));
-        let (b, c) = order(b, c);
-        let keys = [a, b, c, d];
-        let rest = mask.count_ones() as usize - 1;
-        debug_assert!(self.len + 4 <= N, "the stack was sized by the tree");
-        if let Some(top) = self.entries.get_mut(self.len..self.len + 4) {
-            top.copy_from_slice(&keys);
-            self.len += rest;
+        self.t_max
+    }
+}
+
+/// Many rays through a tree: the vector unit is chosen once for all.
+struct Walks<'a, const ANY: bool, O, A, P> {
+    bvh: &'a Bvh,
+    rays: &'a [Ray],
+    others: &'a O,
+    accept: A,
+    put: P,
+}
+
+impl<const ANY: bool, O, A, P> Kernel for Walks<'_, ANY, O, A, P>
+where
+    O: Others,
+    A: Fn(&RawHit) -> bool,
+    P: FnMut(usize, Option<RawHit>),
+{
+    type Output = ();
+    #[inline(always)]
+    fn run<S: Simd>(mut self) {
+        for (i, ray) in self.rays.iter().enumerate() {
+            let mut best = Best { accept: &self.accept, hit: None, t_max: ray.t_max };
+            walk::<S, ANY>(self.bvh, ray, self.others, |h| best.offer::<ANY>(h));
+            (self.put)(i, best.hit);
         }
-        Child(keys[rest & 3] as u32)
     }
 }
 
 impl Bvh {
+    /// Offers points of the ray before its end to `found`, which answers with the new end.
+    #[inline]
+    pub(crate) fn visit(&self, ray: &Ray, others: &impl Others, found: impl FnMut(RawHit) -> f32) {
+        self.unit.run(Walk::<false, _, _> { bvh: self, ray, others, found });
+    }
     /// The nearest point of the ray that `accept` takes; with `ANY`, the first one come across.
     #[inline]
     pub(crate) fn hit<const ANY: bool>(
@@ -72,59 +190,18 @@ impl Bvh {
         others: &impl Others,
         accept: impl Fn(&RawHit) -> bool,
     ) -> Option<RawHit> {
-        // A stack is cleared before use, which a small tree should not pay a large one for.
-        match self.stack {
-            0..=20 => self.walk::<ANY, 24>(ray, others, accept),
-            21..=60 => self.walk::<ANY, 64>(ray, others, accept),
-            _ => self.walk::<ANY, 512>(ray, others, accept),
-        }
+        let mut best = Best { accept, hit: None, t_max: ray.t_max };
+        self.unit.run(Walk::<ANY, _, _> { bvh: self, ray, others, found: |h| best.offer::<ANY>(h) });
+        best.hit
     }
-
-    fn walk<const ANY: bool, const N: usize>(
+    /// The same for each ray of a list; `put` takes the answers in order.
+    pub(crate) fn hits<const ANY: bool>(
         &self,
-        ray: &Ray,
+        rays: &[Ray],
         others: &impl Others,
         accept: impl Fn(&RawHit) -> bool,
-    ) -> Option<RawHit> {
-        let r = RayData::new(ray);
-        let mut stack = Stack::<N> { entries: [0; N], len: 0 };
-        let (mut best, mut t_max) = (None, ray.t_max);
-        let mut child = self.root;
-        if child == Child::NONE {
-            return None;
-        }
-        loop {
-            if !child.is_leaf() {
-                let node = &self.nodes[child.index()];
-                let (mask, t) = node.hit(&r, t_max);
-                if mask != 0 {
-                    child = stack.descend(node, mask, t.to_array());
-                    continue;
-                }
-            } else {
-                let mut limit = t_max;
-                let mut found = |h: RawHit| {
-                    if accept(&h) {
-                        t_max = if ANY { f32::NEG_INFINITY } else { h.t };
-                        best = Some(h);
-                    }
-                    t_max
-                };
-                if child.is_other() {
-                    for &id in self.others[child.index()].iter().filter(|&&id| id != UNUSED) {
-                        limit = others.hit(id, ray, limit, &mut found);
-                    }
-                } else {
-                    self.triangles[child.index()].hit(ray, &r, limit, found);
-                }
-                if ANY && best.is_some() {
-                    return best;
-                }
-            }
-            match stack.pop(t_max) {
-                Some(c) => child = c,
-                None => return best,
-            }
-        }
+        put: impl FnMut(usize, Option<RawHit>),
+    ) {
+        self.unit.run(Walks::<ANY, _, _, _> { bvh: self, rays, others, accept, put });
     }
 }

@@ -64,7 +64,7 @@ impl Form {
     pub(super) fn of(shape: &Shape) -> Option<Form> {
         let sorted = |a: f32, b: f32| [f64::from(a.min(b)), f64::from(a.max(b))];
         let (form, extents) = match *shape {
-            Shape::Triangles(_) | Shape::Patches(_) => return None,
+            Shape::Triangles(_) | Shape::Patches(_) | Shape::Curves(_) => return None,
             Shape::Sphere { radius, z_min, z_max, phi_max } => {
                 let (r, phi_max) = (f64::from(radius).abs(), full(phi_max));
                 let z = sorted(z_min, z_max).map(|z| z.max(-r).min(r));

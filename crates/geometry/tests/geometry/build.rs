@@ -111,7 +111,8 @@ fn deep_trees_are_walked_to_the_end() {
     }
     let g = Geometry::build(vec![mesh(p, indices)]);
     assert_eq!(g.stats().primitives, 400);
-    let hit = g.intersect(&Ray::new(vec3(-1.0, 0.0, 1e-13), vec3(1.0, 0.0, 0.0))).unwrap();
+    // It starts close by: from afar many of the triangles lie at the same distance, to the last bit.
+    let hit = g.intersect(&Ray::new(vec3(0.0, 0.0, 1e-13), vec3(1.0, 0.0, 0.0))).unwrap();
     assert_eq!(hit.prim, 0);
 }
 

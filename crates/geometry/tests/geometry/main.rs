@@ -2,6 +2,9 @@
 #![allow(clippy::unwrap_used, reason = "tests stop where something is missing")]
 
 mod build;
+mod curves;
+mod exact;
+mod instances;
 mod rays;
 mod sampling;
 mod spawn;

@@ -91,6 +91,7 @@ fn shadow_rays_end_before_the_light() {
             match &mut s.shape {
                 Shape::Patches(m) => m.p.iter_mut().for_each(|p| *p = (Vec3::from(*p) + c).to_array()),
                 Shape::Triangles(m) => m.p.iter_mut().for_each(|p| *p = (Vec3::from(*p) + c).to_array()),
+                Shape::Curves(_) => {}
                 Shape::Sphere { .. } | Shape::Disk { .. } | Shape::Cylinder { .. } => {
                     s.to_world = Transform::translate(c.to_f64()).then_first(&s.to_world);
                 }

@@ -60,7 +60,7 @@ fn quadric(o: V, d: V, shape: &Shape) -> Option<f64> {
             (solve(d.dot(d), 2.0 * o.dot(d), o.dot(o) - r * r), phi_max)
         }
         Shape::Disk { height, phi_max, .. } => ([(f64::from(height) - o.z) / d.z, f64::NAN], phi_max),
-        Shape::Triangles(_) | Shape::Patches(_) => return None,
+        Shape::Triangles(_) | Shape::Patches(_) | Shape::Curves(_) => return None,
     };
     let inside = |p: V| match *shape {
         Shape::Sphere { radius, z_min, z_max, .. } => {
@@ -71,7 +71,7 @@ fn quadric(o: V, d: V, shape: &Shape) -> Option<f64> {
             let r = flat(p).length();
             r <= radius.into() && r >= inner_radius.into()
         }
-        Shape::Triangles(_) | Shape::Patches(_) => false,
+        Shape::Triangles(_) | Shape::Patches(_) | Shape::Curves(_) => false,
     };
     let whole = phi_max >= super::TAU;
     let hits =
@@ -102,6 +102,8 @@ pub(crate) fn nearest(shapes: &[ShapeInstance], ray: &Ray) -> Option<(f64, u32, 
                     offer(patch(o, d, at.map(|k| Vec3::from(m.p[k as usize]).to_f64())), i, j);
                 }
             }
+            // Curves have a twin of their own.
+            Shape::Curves(_) => {}
             shape @ (Shape::Sphere { .. } | Shape::Disk { .. } | Shape::Cylinder { .. }) => {
                 let back = s.to_world.inverse();
                 offer(quadric(back.point(o), back.vector(d), shape), i, 0);

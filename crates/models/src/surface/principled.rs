@@ -25,11 +25,11 @@ use sparrow_spectra::Spectrum;
 use super::dielectric::Dielectric;
 use super::eon::Eon;
 use crate::coat::Coat;
-use crate::fibres::{Fibres, SMOOTHEST};
 use crate::ggx::Ggx;
 use crate::microfacet::albedo;
 use crate::opaque::Opaque;
 use crate::opaque::raised;
+use crate::sheen_layer::{Fibres, SMOOTHEST};
 use crate::{About, Bsdf, BsdfSample, Lack, Model, ParamBlock, ParamInfo, Uniforms, fresnel};
 
 /// Fuzz over a coat over a base.

@@ -11,8 +11,8 @@ use core::f64::consts::FRAC_1_PI;
 use sparrow_math::{LocalDir, Real};
 use sparrow_spectra::Spectrum;
 
-use crate::fibres::{Fibres, SMOOTHEST};
 use crate::opaque::{Opaque, TwoLobes};
+use crate::sheen_layer::{Fibres, SMOOTHEST};
 use crate::{About, Lack, Model, ParamBlock, ParamInfo, Uniforms};
 
 /// A layer of fibres over a diffuse base.

@@ -2,12 +2,12 @@
 
 use sparrow_geometry::{Ray, SurfacePoint};
 use sparrow_math::Vec3;
+use sparrow_mis::Mis;
 use sparrow_scene::{IntegratorDesc, IntegratorName};
 use sparrow_spectra::{Spectrum, Wavelengths};
 
 use super::RayCounts;
 use crate::light::LitPoint;
-use crate::mis::Mis;
 use crate::sampler::PixelSampler;
 use crate::scatter::{Density, Scatter};
 use crate::scene::{LastVertex, Scene};
@@ -39,13 +39,13 @@ pub struct PathIntegrator {
 }
 
 impl PathIntegrator {
-    /// From a description; the heuristic has been parsed.
-    pub fn new(desc: &IntegratorDesc, mis: Mis) -> PathIntegrator {
+    /// From a description.
+    pub fn new(desc: &IntegratorDesc) -> PathIntegrator {
         let direct = desc.name == IntegratorName::DirectLighting;
         PathIntegrator {
             max_depth: desc.max_depth,
             max_smooth: if direct { 1 } else { u32::MAX },
-            mis,
+            mis: desc.mis,
             regularize: desc.regularize,
         }
     }
@@ -82,8 +82,9 @@ impl PathIntegrator {
 
             // Direct light.
             sampler.set_dimension(FIRST_BOUNCE + depth * PER_BOUNCE);
-            if self.mis.samples_lights() && bsdf.has_smooth_lobe() {
-                l += beta * self.direct(scene, &point, &bsdf, wo, lambda, sampler, rays);
+            let turn = self.mis.turn(sampler.get_1d());
+            if turn.light && bsdf.has_smooth_lobe() {
+                l += beta * self.direct(scene, &point, &bsdf, wo, lambda, turn.u, sampler, rays);
             }
 
             // Next vertex.
@@ -95,6 +96,7 @@ impl PathIntegrator {
             match s.density {
                 Density::SolidAngle(pdf) => {
                     n_smooth += 1;
+                    let pdf = if turn.bsdf { pdf } else { 0.0 };
                     last = Some(LastVertex { at: LitPoint { p: point.p, n: point.ns }, pdf });
                 }
                 Density::Delta(_) => last = None,
@@ -124,12 +126,14 @@ impl PathIntegrator {
         bsdf: &Scatter,
         wo: Vec3<f32>,
         lambda: &Wavelengths,
+        choice: f32,
         sampler: &mut PixelSampler<'_>,
         rays: &mut RayCounts,
     ) -> Spectrum<f32> {
         let at = LitPoint { p: point.p, n: point.ns };
-        let (choice, u) = (sampler.get_1d(), sampler.get_2d());
-        let Some(light) = scene.sample_light(&at, choice, u, lambda) else { return Spectrum::ZERO };
+        let Some(light) = scene.sample_light(&at, choice, sampler.get_2d(), lambda) else {
+            return Spectrum::ZERO;
+        };
         let (f_cos, pdf) = bsdf.f_cos_pdf(wo, light.wi);
         if f_cos.is_black() {
             return Spectrum::ZERO;

@@ -11,7 +11,7 @@ use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
 use sparrow_render::film::Film;
-use sparrow_render::{Mis, RenderOptions, RenderPlan, RenderStats, compile, render};
+use sparrow_render::{RenderOptions, RenderPlan, RenderStats, compile, render};
 use sparrow_scene::SceneDesc;
 
 /// Reads a scene; panics with the reader's message where it does not like it.
@@ -23,8 +23,7 @@ pub fn describe(text: &str) -> SceneDesc {
 /// Renders a description on `threads` threads.
 pub fn picture_of(desc: SceneDesc, threads: usize) -> (Film, RenderStats) {
     let plan = RenderPlan::new(&desc).unwrap_or_else(|e| panic!("{e:?}"));
-    let mis: Mis = plan.integrator.mis;
-    let compiled = compile(desc, mis).unwrap_or_else(|e| panic!("{e}"));
+    let compiled = compile(desc).unwrap_or_else(|e| panic!("{e}"));
     let options = RenderOptions { threads, variance: true, time_limit: None };
     render(&compiled.scene, &plan, &options, &AtomicBool::new(false), &|_| ())
         .unwrap_or_else(|e| panic!("{e}"))

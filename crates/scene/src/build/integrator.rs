@@ -5,6 +5,7 @@ use crate::desc::{
     IntegratorDesc, IntegratorName, LightSamplerName, RandomizeName, SamplerDesc, SamplerName,
 };
 use crate::params::Params;
+use sparrow_mis::{Heuristic, Mis};
 
 impl Builder {
     /// The sampler.
@@ -81,9 +82,7 @@ impl Builder {
             max_depth: 5,
             light_sampler: LightSamplerName::Bvh,
             regularize: false,
-            mis: "power".to_string(),
-            sample_lights: true,
-            sample_bsdf: true,
+            mis: Mis::Both(Heuristic::Power(2.0)),
             mis_compensation: true,
         };
         let Some(statement) = self.setup.integrator.take() else { return desc };
@@ -101,10 +100,8 @@ impl Builder {
         }
         desc.light_sampler = self.light_sampler(p);
         desc.regularize = p.bool_or("regularize", false);
-        desc.sample_lights = p.bool_or("samplelights", true);
-        desc.sample_bsdf = p.bool_or("samplebsdf", true);
         desc.mis_compensation = p.bool_or("miscompensation", true);
-        desc.mis = self.mis(p);
+        desc.mis = self.mis(p).unwrap_or(desc.mis);
         desc
     }
 
@@ -121,18 +118,25 @@ impl Builder {
         self.choice(p, "lightsampler", &names, "bvh").unwrap_or(LightSamplerName::Bvh)
     }
 
-    fn mis(&mut self, p: &Params) -> String {
-        let Some((name, at)) = p.text("mis") else { return "power".to_string() };
-        let beta = name.strip_prefix("power:").and_then(|b| b.parse::<f32>().ok());
-        if !matches!(name, "balance" | "power" | "light-only" | "bsdf-only")
-            && !beta.is_some_and(|b| b > 0.0 && b.is_finite())
-        {
-            let message = format!(
-                "\"mis\" cannot be \"{name}\"; write \"balance\", \"power\", \"light-only\", \"bsdf-only\", or \"power:BETA\" with \
-                 BETA above zero"
-            );
-            self.report.error(at, message);
+    /// The heuristic; switching one technique off leaves all to the other.
+    fn mis(&mut self, p: &Params) -> Option<Mis> {
+        let named = match p.text("mis") {
+            Some((name, at)) => {
+                let mis = name.parse();
+                mis.map_err(|e| self.report.error(at, e)).ok()
+            }
+            None => None,
+        };
+        match (p.bool_or("samplelights", true), p.bool_or("samplebsdf", true)) {
+            (true, true) => named,
+            (true, false) => Some(Mis::LightOnly),
+            (false, true) => Some(Mis::BsdfOnly),
+            (false, false) => {
+                let message =
+                    "neither lights nor the BSDF are sampled; set \"samplelights\" or \"samplebsdf\" to true";
+                self.report.error(p.place("samplebsdf"), message.to_string());
+                None
+            }
         }
-        name.to_string()
     }
 }

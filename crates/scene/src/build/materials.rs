@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::rc::Rc;
 
-use sparrow_models::{ParamInfo, ParamKind, SurfaceKind};
+use sparrow_models::{ModelKind, ParamInfo, ParamKind, SurfaceKind};
 
 use super::Builder;
 use super::spectrum::{Role, SPECTRUM_TYPES};
@@ -15,7 +15,7 @@ use crate::suggest::remedy;
 use crate::tables::{Category, Kind, Row, TYPE_ROW, Type, Use};
 
 /// What a shape says its material is.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) enum MaterialRef {
     /// Index into the materials, 0 for the default.
     Index(u32),
@@ -34,22 +34,22 @@ pub(super) struct PendingMaterial {
 
 /// A model and where its parameters come from, by name; what is missing takes the table's default.
 #[derive(Default)]
-struct Parts {
-    model: Option<SurfaceKind>,
+pub(super) struct Parts {
+    model: Option<ModelKind>,
     reals: Vec<(&'static str, RealParam)>,
     spectra: Vec<(&'static str, SpectrumParam)>,
-    choices: Vec<(&'static str, u8)>,
+    pub(super) choices: Vec<(&'static str, u8)>,
 }
 
 impl Parts {
-    fn surface(model: SurfaceKind) -> Self {
-        Parts { model: Some(model), ..Parts::default() }
+    pub(super) fn of(model: impl Into<ModelKind>) -> Self {
+        Parts { model: Some(model.into()), ..Parts::default() }
     }
-    fn real(mut self, name: &'static str, from: RealParam) -> Self {
+    pub(super) fn real(mut self, name: &'static str, from: RealParam) -> Self {
         self.reals.push((name, from));
         self
     }
-    fn spectrum(mut self, name: &'static str, from: SpectrumParam) -> Self {
+    pub(super) fn spectrum(mut self, name: &'static str, from: SpectrumParam) -> Self {
         self.spectra.push((name, from));
         self
     }
@@ -84,7 +84,7 @@ impl Builder {
     fn material(&mut self, m: &PendingMaterial, made: &Materials) -> Parts {
         let name = m.type_name.as_str();
         let entity = Category::Material.find(name);
-        if let (None, Some(kind)) = (entity, SurfaceKind::from_name(name)) {
+        if let (None, Some(kind)) = (entity, ModelKind::from_name(name)) {
             return self.own_model(kind, m);
         }
         let Some(entity) = check::entity(&mut self.report, Category::Material, name, m.type_at) else {
@@ -99,8 +99,7 @@ impl Builder {
         match entity.name {
             "diffuse" => {
                 let reflectance = self.spectrum_param(p, "reflectance", Role::Albedo, 0.5);
-                Parts::surface(SurfaceKind::Lambert)
-                    .spectrum("reflectance", SpectrumParam::Texture(reflectance))
+                Parts::of(SurfaceKind::Lambert).spectrum("reflectance", SpectrumParam::Texture(reflectance))
             }
             "diffusetransmission" => self.diffuse_transmission(p),
             "coateddiffuse" => self.coated_diffuse(p),
@@ -109,17 +108,18 @@ impl Builder {
             "dielectric" => {
                 let eta = self.index_of_refraction(p, "eta");
                 let [alpha_x, alpha_y] = self.alphas(p, "");
-                Parts::surface(SurfaceKind::Dielectric)
+                Parts::of(SurfaceKind::Dielectric)
                     .real("eta", eta)
                     .real("alpha_x", alpha_x)
                     .real("alpha_y", alpha_y)
             }
             "thindielectric" => {
                 let eta = self.index_of_refraction(p, "eta");
-                Parts::surface(SurfaceKind::ThinDielectric).real("eta", eta)
+                Parts::of(SurfaceKind::ThinDielectric).real("eta", eta)
             }
             "interface" | "none" | "" => Parts::default(),
             "mix" => self.mix(p, made),
+            "hair" => self.hair(p),
             _ => self.diffuse_grey(),
         }
     }
@@ -138,7 +138,7 @@ impl Builder {
     /// The stand-in for what is not supported, and pbrt-v4's default.
     fn diffuse_grey(&mut self) -> Parts {
         let grey = self.made.grey(0.5);
-        Parts::surface(SurfaceKind::Lambert).spectrum("reflectance", SpectrumParam::Texture(grey))
+        Parts::of(SurfaceKind::Lambert).spectrum("reflectance", SpectrumParam::Texture(grey))
     }
 
     fn diffuse_transmission(&mut self, p: &Params) -> Parts {
@@ -152,7 +152,7 @@ impl Builder {
             let scale = self.made.constant(scale);
             both = both.map(|t| self.made.add_spectrum(SpectrumTexture::Scale(t, scale)));
         }
-        Parts::surface(SurfaceKind::DiffuseTransmission)
+        Parts::of(SurfaceKind::DiffuseTransmission)
             .spectrum("reflectance", SpectrumParam::Texture(both[0]))
             .spectrum("transmittance", SpectrumParam::Texture(both[1]))
     }
@@ -162,7 +162,7 @@ impl Builder {
         let eta = self.index_of_refraction(p, "eta");
         let [alpha_x, alpha_y] = self.alphas(p, "");
         let thickness = self.float_param(p, "thickness", 0.01);
-        Parts::surface(SurfaceKind::CoatedDiffuse)
+        Parts::of(SurfaceKind::CoatedDiffuse)
             .real("alpha_x", alpha_x)
             .real("alpha_y", alpha_y)
             .real("eta", eta)
@@ -173,7 +173,7 @@ impl Builder {
     fn conductor(&mut self, p: &Params) -> Parts {
         let (eta, k) = self.metal(p, "");
         let [alpha_x, alpha_y] = self.alphas(p, "");
-        Parts::surface(SurfaceKind::Conductor)
+        Parts::of(SurfaceKind::Conductor)
             .real("alpha_x", alpha_x)
             .real("alpha_y", alpha_y)
             .spectrum("eta", eta)
@@ -186,7 +186,7 @@ impl Builder {
         let [alpha_x, alpha_y] = self.alphas(p, "interface.");
         let [base_x, base_y] = self.alphas(p, "conductor.");
         let thickness = self.float_param(p, "thickness", 0.01);
-        Parts::surface(SurfaceKind::CoatedConductor)
+        Parts::of(SurfaceKind::CoatedConductor)
             .real("alpha_x", alpha_x)
             .real("alpha_y", alpha_y)
             .real("alpha_base_x", base_x)
@@ -286,11 +286,11 @@ impl Builder {
     }
 
     /// A model of the registry, by its own table.
-    fn own_model(&mut self, kind: SurfaceKind, m: &PendingMaterial) -> Parts {
+    fn own_model(&mut self, kind: ModelKind, m: &PendingMaterial) -> Parts {
         let rows: Vec<Row> = kind.params().iter().map(row_of).collect();
         let mut params = m.params.clone();
         self.check_material(m, rows.iter(), &mut params);
-        let mut parts = Parts::surface(kind);
+        let mut parts = Parts::of(kind);
         for info in kind.params() {
             match info.kind {
                 ParamKind::Real => {
@@ -317,7 +317,7 @@ impl Builder {
         parts
     }
 
-    fn own_real(&mut self, kind: SurfaceKind, info: &ParamInfo, p: &Params) -> Option<RealParam> {
+    fn own_real(&mut self, kind: ModelKind, info: &ParamInfo, p: &Params) -> Option<RealParam> {
         let [rgb, spectrum, blackbody] = SPECTRUM_TYPES;
         let param = p.find(info.name, &[Type::Float, Type::Texture, rgb, spectrum, blackbody])?;
         if param.ty == Type::Float {
@@ -333,7 +333,7 @@ impl Builder {
     }
 
     /// Checks a spectrum that is the same everywhere against the table.
-    fn check_constant(&mut self, kind: SurfaceKind, info: &ParamInfo, texture: usize, p: &Params) {
+    fn check_constant(&mut self, kind: ModelKind, info: &ParamInfo, texture: usize, p: &Params) {
         let Some(SpectrumTexture::Constant(spectrum)) = self.made.spectra.get(texture) else { return };
         let values: Vec<f32> = match spectrum {
             SpectrumDesc::Constant(v) => vec![*v],
@@ -346,7 +346,7 @@ impl Builder {
 
     fn check_range(
         &mut self,
-        kind: SurfaceKind,
+        kind: ModelKind,
         info: &ParamInfo,
         values: impl Iterator<Item = f32>,
         at: Span,
@@ -369,7 +369,7 @@ impl Builder {
     /// Puts the parts in the order of the model's table.
     fn material_desc(&mut self, parts: Parts, name: Option<&str>, type_name: &str, at: Span) -> MaterialDesc {
         let (mut reals, mut spectra, mut choices) = (Vec::new(), Vec::new(), Vec::new());
-        for info in parts.model.map_or(&[][..], SurfaceKind::params) {
+        for info in parts.model.map_or(&[][..], ModelKind::params) {
             match info.kind {
                 ParamKind::Real => {
                     let given = parts.reals.iter().find(|(n, _)| *n == info.name).map(|(_, v)| v.clone());
@@ -395,7 +395,7 @@ impl Builder {
 }
 
 /// Names of a model's parameters of some kind, in the table's order.
-fn names_of(model: SurfaceKind, of: fn(ParamKind) -> bool) -> impl Iterator<Item = &'static str> {
+fn names_of(model: ModelKind, of: fn(ParamKind) -> bool) -> impl Iterator<Item = &'static str> {
     model.params().iter().filter(move |i| of(i.kind)).map(|i| i.name)
 }
 

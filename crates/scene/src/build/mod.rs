@@ -5,10 +5,12 @@
 
 mod blocks;
 mod camera;
+mod curves;
 mod files;
 mod film;
 mod finish;
 mod graphics;
+mod hair;
 mod integrator;
 mod lights;
 mod materials;

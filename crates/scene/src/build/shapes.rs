@@ -1,8 +1,11 @@
 //! Shapes, and the objects that collect them.
 
+use std::sync::Arc;
+
 use sparrow_math::Transform;
 
 use super::Builder;
+use super::curves::joined;
 use super::materials::MaterialRef;
 use crate::desc::{AreaLightId, ShapeKind};
 use crate::diagnostic::Span;
@@ -10,7 +13,7 @@ use crate::params::Params;
 use crate::tables::{Entity, Support};
 
 /// What a shape's `alpha` says.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) enum Alpha {
     Opaque,
     Constant(f32),
@@ -27,6 +30,18 @@ pub(super) struct PendingShape {
     pub(super) area_light: Option<AreaLightId>,
     pub(super) alpha: Alpha,
     pub(super) at: Span,
+}
+
+impl PendingShape {
+    /// Joins a shape of curves to this one, if both are made of the same.
+    fn takes(&mut self, other: &PendingShape) -> bool {
+        self.material == other.material
+            && self.area_light == other.area_light
+            && self.alpha == other.alpha
+            && self.reverse_orientation == other.reverse_orientation
+            && self.to_world == other.to_world
+            && joined(&mut self.kind, &other.kind)
+    }
 }
 
 /// An object: shapes to be instanced.
@@ -64,6 +79,10 @@ impl Builder {
             self.no_light_in_objects(params.at);
             area_light = None;
         }
+        if area_light.is_some() && matches!(kind, ShapeKind::Curves(_)) {
+            self.report.warn(params.at, "curves do not emit light; the area light is ignored for them");
+            area_light = None;
+        }
         let shape = PendingShape {
             kind,
             to_world,
@@ -74,8 +93,20 @@ impl Builder {
             at: params.at,
         };
         match self.open_object.as_ref().and_then(|name| self.objects.get_mut(name)) {
-            Some(object) => object.shapes.push(shape),
-            None => self.items.push(Item::Shape(Box::new(shape))),
+            Some(object) => {
+                if !object.shapes.last_mut().is_some_and(|last| last.takes(&shape)) {
+                    object.shapes.push(shape);
+                }
+            }
+            None => {
+                let taken = match self.items.last_mut() {
+                    Some(Item::Shape(last)) => last.takes(&shape),
+                    Some(Item::Use(_)) | None => false,
+                };
+                if !taken {
+                    self.items.push(Item::Shape(Box::new(shape)));
+                }
+            }
         }
     }
 
@@ -84,6 +115,8 @@ impl Builder {
             "trianglemesh" => self.triangle_mesh(params).map(ShapeKind::Mesh),
             "bilinearmesh" => self.bilinear_mesh(params).map(ShapeKind::Mesh),
             "plymesh" => self.ply_mesh(params).map(ShapeKind::Mesh),
+            "curve" => self.curve(params).map(|c| ShapeKind::Curves(Arc::new(c))),
+            "hair" => self.strands(params).map(|c| ShapeKind::Curves(Arc::new(c))),
             "sphere" => {
                 let radius = self.radius(params)?;
                 let [a, b] = [params.float_or("zmin", -radius), params.float_or("zmax", radius)];

@@ -1,6 +1,6 @@
 //! Materials and their parameters.
 
-use sparrow_models::SurfaceKind;
+use sparrow_models::ModelKind;
 
 use super::{FloatTextureId, SpectrumDesc, SpectrumTextureId};
 use crate::diagnostic::Span;
@@ -33,8 +33,8 @@ pub struct MaterialDesc {
     pub name: Option<String>,
     /// The statement's own word, such as `conductor`.
     pub type_name: String,
-    /// The reflection model; none for `interface`, which rays pass unchanged.
-    pub model: Option<SurfaceKind>,
+    /// The model of a surface or a fibre; none for `interface`, which rays pass unchanged.
+    pub model: Option<ModelKind>,
     /// One entry per `Real` parameter of the model's table, in its order.
     pub reals: Vec<RealParam>,
     /// One entry per spectral parameter of the model's table, in its order.

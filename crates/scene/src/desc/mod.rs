@@ -4,6 +4,7 @@
 //! been read, names looked up, units converted, transforms multiplied out; meshes are loaded, because
 //! a file that is missing or broken is the scene's fault. Textures and environment maps are named by path.
 
+mod curves;
 mod light;
 mod material;
 mod sampling;
@@ -16,6 +17,8 @@ use std::path::PathBuf;
 
 use crate::diagnostic::Diagnostic;
 
+pub(crate) use curves::MAX_POINTS;
+pub use curves::{CurveBasis, CurveKind, Curves};
 pub use light::{AreaLightDesc, LightDesc, LightKind, LightSamplerName};
 pub use material::{MaterialDesc, RealParam, SpectrumParam};
 pub use sampling::{IntegratorDesc, IntegratorName, RandomizeName, SamplerDesc, SamplerName};

@@ -1,5 +1,7 @@
 //! Sampler and integrator.
 
+use sparrow_mis::Mis;
+
 use super::LightSamplerName;
 
 /// Names of samplers.
@@ -62,12 +64,8 @@ pub struct IntegratorDesc {
     pub light_sampler: LightSamplerName,
     /// Widens narrow lobes after the first rough one.
     pub regularize: bool,
-    /// MIS heuristic, as written: `balance`, `power`.
-    pub mis: String,
-    /// Next-event estimation is used.
-    pub sample_lights: bool,
-    /// Directions drawn from the BSDF find lights.
-    pub sample_bsdf: bool,
+    /// How light sampling and BSDF sampling share direct light.
+    pub mis: Mis,
     /// MIS compensation of environment lights.
     pub mis_compensation: bool,
 }

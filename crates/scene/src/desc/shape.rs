@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use sparrow_math::Transform;
 
-use super::{AreaLightId, FloatTextureId, MaterialId};
+use super::{AreaLightId, Curves, FloatTextureId, MaterialId};
 use crate::diagnostic::Span;
 
 /// Triangle and patch vertices, in object space.
@@ -29,6 +29,8 @@ pub struct Mesh {
 pub enum ShapeKind {
     /// Triangles and bilinear patches.
     Mesh(Arc<Mesh>),
+    /// Curves.
+    Curves(Arc<Curves>),
     /// A sphere or part of one, about the z axis.
     Sphere {
         /// Radius.

@@ -109,8 +109,7 @@ pub(super) static MATERIALS: [Entity; 14] = [
             row("beta_n", Kind::FloatTexture),
             row("alpha", Kind::FloatTexture),
         ]],
-    )
-    .instead("it is rendered as \"diffuse\" with reflectance 0.5"),
+    ),
     Entity::new(
         "subsurface",
         &[

@@ -12,7 +12,7 @@ mod shapes;
 mod textures;
 mod v3;
 
-use sparrow_models::SurfaceKind;
+use sparrow_models::ModelKind;
 
 pub(crate) use render::{OPTIONS, OptionValue};
 pub(crate) use v3::successor;
@@ -258,8 +258,9 @@ impl Category {
     }
     /// All names of types; materials have the registry's models beside pbrt-v4's.
     pub(crate) fn names(self) -> impl Iterator<Item = &'static str> + Clone {
-        let own = if self == Category::Material { SurfaceKind::ALL } else { &[] };
-        self.entities().iter().map(|e| e.name).chain(own.iter().map(|k| k.name()))
+        let own = ModelKind::all().filter(move |_| self == Category::Material);
+        let own = own.map(ModelKind::name).filter(move |n| self.find(n).is_none());
+        self.entities().iter().map(|e| e.name).chain(own)
     }
     /// In words, for messages.
     pub(crate) fn noun(self) -> &'static str {
@@ -374,8 +375,8 @@ mod tests {
 
     #[test]
     fn tables_hold_all_of_pbrt() {
-        // Counts of the types that pbrt-v4's Create functions tell apart.
+        // Counts of the types that pbrt-v4's Create functions tell apart, and of Sparrow's own shape.
         let counts = ALL.map(|c| c.entities().iter().filter(|e| !e.name.is_empty()).count());
-        assert_eq!(counts, [8, 6, 1, 13, 12, 10, 5, 4, 3, 5, 7, 12, 2]);
+        assert_eq!(counts, [9, 6, 1, 13, 12, 10, 5, 4, 3, 5, 7, 12, 2]);
     }
 }

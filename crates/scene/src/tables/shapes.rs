@@ -1,11 +1,11 @@
-//! Shapes: `Shape::Create` of pbrt-v4.
+//! Shapes: `Shape::Create` of pbrt-v4, and `hair`.
 
 use super::{Entity, Kind, Row, moot, not_yet, row};
 
 /// Read for every shape where its primitives are made.
 const COMMON: &[Row] = &[row("alpha", Kind::FloatTexture)];
 
-pub(super) static SHAPES: [Entity; 8] = [
+pub(super) static SHAPES: [Entity; 9] = [
     Entity::new(
         "trianglemesh",
         &[
@@ -98,10 +98,27 @@ pub(super) static SHAPES: [Entity; 8] = [
                 row("width0", Kind::Float),
                 row("width1", Kind::Float),
                 row("splitdepth", Kind::Int),
+                // Sparrow's own, for the basis hermite.
+                row("T", Kind::Vector3List),
             ],
         ],
-    )
-    .instead("it is left out of the picture"),
+    ),
+    // Sparrow's own: strands in files of other programs.
+    Entity::new(
+        "hair",
+        &[
+            COMMON,
+            &[
+                row("filename", Kind::Text),
+                row("type", Kind::Text),
+                row("basis", Kind::Text),
+                row("width", Kind::Float),
+                row("width0", Kind::Float),
+                row("width1", Kind::Float),
+                row("splitdepth", Kind::Int),
+            ],
+        ],
+    ),
     Entity::new(
         "loopsubdiv",
         &[

@@ -140,7 +140,7 @@ fn write_the_table() {
             shares += walks.share;
         }
     }
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/src/fibres/table.txt");
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/src/sheen_layer/table.txt");
     std::fs::write(path, text).expect("the table is written");
     let n = (N * N) as f64;
     println!("distance: mean {}, weighted {}, worst {worst}", sum / n, weighted / shares);

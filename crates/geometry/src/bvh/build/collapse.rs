@@ -1,0 +1,136 @@
+//! From the binary tree to the wide one, at the least cost that its cuts allow: [`Plan`]. [Ylitie2017]
+
+use super::super::node::{Child, Kind, Node, WIDTH};
+use super::binary::{Binary, BinaryNode, Kinds};
+
+/// What a subtree costs at best, in the units of the heuristic, as one child of a wide node up to as many as it has.
+#[derive(Clone, Copy)]
+struct Costs {
+    /// `at_most[i]`: as at most `i + 1` children.
+    at_most: [f32; WIDTH - 1],
+    /// How many of these `i + 1` come from the left child; 0 where the subtree is one child.
+    left: [u8; WIDTH - 1],
+    /// The same for the wide node that has this subtree to itself.
+    left_of_node: u8,
+    /// As one child it is best a leaf.
+    is_leaf: bool,
+}
+
+/// Cost of testing the primitives of a leaf; infinite where they do not fit one.
+fn leaf_cost(node: &BinaryNode) -> f32 {
+    if node.kinds.fit(node.count as usize) { 1.0 } else { f32::INFINITY }
+}
+
+/// The best way to make each subtree part of a wide tree.
+pub(super) struct Plan<'a> {
+    tree: &'a Binary,
+    costs: Vec<Costs>,
+}
+
+impl<'a> Plan<'a> {
+    pub(super) fn new(tree: &'a Binary) -> Plan<'a> {
+        let none = Costs { at_most: [0.0; WIDTH - 1], left: [0; WIDTH - 1], left_of_node: 0, is_leaf: true };
+        let mut costs = vec![none; tree.nodes.len()];
+        // Children come after their parents in the list.
+        for (i, node) in tree.nodes.iter().enumerate().rev() {
+            let area = node.bounds.half_area();
+            let as_leaf = area * leaf_cost(node);
+            if node.right == 0 {
+                costs[i].at_most = [as_leaf; WIDTH - 1];
+                continue;
+            }
+            let (l, r) = (costs[i + 1], costs[i + node.right as usize]);
+            // The cheapest way to share `n` children out between left and right.
+            let share = |n: usize| {
+                let mut best = (f32::INFINITY, 1);
+                for k in 1..n {
+                    let cost = l.at_most[k - 1] + r.at_most[n - k - 1];
+                    if cost < best.0 {
+                        best = (cost, k as u8);
+                    }
+                }
+                best
+            };
+            let (below, left_of_node) = share(WIDTH);
+            let as_node = area + below;
+            let c = &mut costs[i];
+            c.left_of_node = left_of_node;
+            c.is_leaf = as_leaf <= as_node;
+            c.at_most[0] = as_leaf.min(as_node);
+            for n in 2..WIDTH {
+                let (cost, k) = share(n);
+                let fewer = c.at_most[n - 2];
+                (c.at_most[n - 1], c.left[n - 1]) =
+                    if cost < fewer { (cost, k) } else { (fewer, c.left[n - 2]) };
+                // With fewer children the same shares serve; what is left over stays empty.
+            }
+        }
+        Plan { tree, costs }
+    }
+
+    /// The subtrees that become the children of the wide node at `at`, with their first primitives.
+    fn children(&self, at: usize, first: usize, out: &mut Vec<(usize, usize)>) {
+        let k = usize::from(self.costs[at].left_of_node);
+        self.share(at, first, k, WIDTH - k, out);
+    }
+    fn share(&self, at: usize, first: usize, left: usize, right: usize, out: &mut Vec<(usize, usize)>) {
+        let right_at = at + self.tree.nodes[at].right as usize;
+        self.forest(at + 1, first, left, out);
+        self.forest(right_at, first + self.tree.nodes[at + 1].count as usize, right, out);
+    }
+    /// The subtree at `at` as at most `n` children.
+    fn forest(&self, at: usize, first: usize, mut n: usize, out: &mut Vec<(usize, usize)>) {
+        let c = &self.costs[at];
+        // As few as give the best cost.
+        while n > 1 && c.at_most[n - 2] <= c.at_most[n - 1] {
+            n -= 1;
+        }
+        if n == 1 || self.tree.nodes[at].right == 0 {
+            out.push((at, first));
+            return;
+        }
+        let k = usize::from(c.left[n - 1]);
+        self.share(at, first, k, n - k, out);
+    }
+    fn is_leaf(&self, at: usize) -> bool {
+        self.tree.nodes[at].right == 0 || self.costs[at].is_leaf
+    }
+}
+
+/// The wide tree before the blocks of its leaves exist.
+#[derive(Default)]
+pub(super) struct Wide {
+    pub(super) nodes: Vec<Node>,
+    /// First place and length among the numbers of primitives, for each block of triangles.
+    pub(super) triangles: Vec<(u32, u8)>,
+    /// Entries the stack of a traversal may need.
+    pub(super) stack: usize,
+}
+
+impl Wide {
+    /// Adds the subtree at `at`, whose primitives begin at `first`; `stack` entries may lie on the stack by then.
+    pub(super) fn add(&mut self, plan: &Plan, at: usize, first: usize, stack: usize) -> Child {
+        let node = &plan.tree.nodes[at];
+        if plan.is_leaf(at) {
+            if node.kinds == Kinds::One(Kind::Others) {
+                return Child::new(Kind::Others, plan.tree.ids[first] as usize);
+            }
+            self.triangles.push((first as u32, node.count as u8));
+            return Child::new(Kind::Triangles, self.triangles.len() - 1);
+        }
+        let i = self.nodes.len();
+        self.nodes.push(Node::empty());
+        let mut children = Vec::with_capacity(WIDTH);
+        plan.children(at, first, &mut children);
+        // Large boxes first: that is where a ray that looks for any hit goes first.
+        let area = |&(at, _): &(usize, usize)| plan.tree.nodes[at].bounds.half_area();
+        children.sort_by(|a, b| area(b).total_cmp(&area(a)));
+        let stack = stack + children.len() - 1;
+        self.stack = self.stack.max(stack);
+        for (slot, (at, first)) in children.into_iter().enumerate() {
+            let child = self.add(plan, at, first, stack);
+            self.nodes[i].set(slot, plan.tree.nodes[at].bounds.to_aabb(), child);
+        }
+        Child::new(Kind::Node, i)
+    }
+}

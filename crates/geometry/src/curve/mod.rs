@@ -1,0 +1,197 @@
+//! Curves: strips and tubes along splines. What they mean stands in [README.md](README.md).
+
+mod cubic;
+mod frame;
+mod group;
+mod obb;
+mod pieces;
+mod strands;
+mod strip;
+mod surface;
+mod tube;
+
+use frame::{RayCubic, RayFrame};
+use obb::{Entries, ObbBlock, WIDTH};
+use pieces::{CurveHit, Pieces};
+use sparrow_math::{Aabb, InLanes, Real, Vec3, in_lanes};
+use strands::Strands;
+use strip::Width;
+
+use crate::bvh::RawHit;
+use crate::ray::Ray;
+use crate::shape::{CurveKind, CurveSet};
+use crate::simd::prefetch;
+
+/// Parts of a segment at most, as a power of two.
+const MAX_SPLIT: u32 = 2;
+/// Segments a set can number, parts included.
+const MAX_SEGMENTS: usize = 1 << 28;
+
+/// Curves ready to be asked. Their primitives are segments; the tree knows them by blocks of eight.
+#[derive(Debug)]
+pub(crate) struct Curves {
+    strands: Strands,
+    kind: CurveKind,
+    /// Of ribbons: unit normals at the ends of segments, one more a strand than it has segments.
+    normals: Vec<[f32; 3]>,
+    /// Segments have `2^split` parts.
+    split: u32,
+    blocks: Vec<ObbBlock>,
+    /// The box around each block.
+    bounds: Vec<Aabb>,
+    /// Segments that cannot be hit.
+    dropped: usize,
+}
+
+impl Curves {
+    /// Takes curves. Ribbons without a normal for every end of a segment become flat.
+    pub(crate) fn new(mut set: CurveSet) -> Curves {
+        let strands = Strands::new(&mut set);
+        let n = strands.n_segments();
+        let mut split = u32::from(set.split_depth).min(MAX_SPLIT);
+        while n << split > MAX_SEGMENTS && split > 0 {
+            split -= 1;
+        }
+        let normals_fit = set.normals.len() == n + set.strands.len();
+        let kind = if set.kind == CurveKind::Ribbon && !normals_fit { CurveKind::Flat } else { set.kind };
+        let normals = if kind == CurveKind::Ribbon { set.normals } else { Vec::new() };
+        let (mut pieces, dropped) = group::pieces(&strands, split);
+        let make = |id: u32| {
+            let (segment, u) = part_of(id, split);
+            let c = strands.cubic(segment);
+            if split == 0 { c } else { c.part(u) }
+        };
+        let (bounds, blocks) = group::blocks(&mut pieces, &make).into_iter().unzip();
+        Curves { strands, kind, normals, split, blocks, bounds, dropped }
+    }
+    /// Segments.
+    pub(crate) fn len(&self) -> usize {
+        self.strands.n_segments()
+    }
+    /// Numbers the tree sets aside: for segments, and for blocks.
+    pub(crate) fn n_ids(&self) -> usize {
+        self.len().max(self.blocks.len())
+    }
+    /// Segments that cannot be hit.
+    pub(crate) fn dropped(&self) -> usize {
+        self.dropped
+    }
+    pub(crate) fn bytes(&self) -> usize {
+        self.strands.bytes()
+            + size_of_val(&*self.normals)
+            + size_of_val(&*self.blocks)
+            + size_of_val(&*self.bounds)
+    }
+    /// Boxes of what the tree holds.
+    pub(crate) fn blocks(&self) -> &[Aabb] {
+        &self.bounds
+    }
+
+    /// Asks for a block ahead of its use.
+    #[inline(always)]
+    pub(crate) fn ahead(&self, block: u32) {
+        prefetch(&self.blocks, block as usize);
+    }
+
+    /// Offers the points of the ray on the segments of a block, which the tree numbers from `first`; returns the last
+    /// limit.
+    pub(crate) fn hit(
+        &self,
+        first: u32,
+        block: u32,
+        ray: &Ray,
+        t_max: f32,
+        found: &mut impl FnMut(RawHit) -> f32,
+    ) -> f32 {
+        in_lanes(BlockTest { curves: self, block: &self.blocks[block as usize], ray, first, t_max, found })
+    }
+
+    /// The nearest point of the ray on piece `i` of a block.
+    #[inline(always)]
+    fn hit_piece<R: Real>(&self, block: &ObbBlock, i: usize, r: &RayFrame, t_max: f32) -> Option<CurveHit> {
+        let (segment, u) = part_of(block.id[i], self.split);
+        let c = self.strands.cubic_at(block.place[i]);
+        let seen = RayCubic::new(&c, r);
+        let pieces = Pieces::new(&seen, u, c.largest_radius());
+        match self.kind {
+            CurveKind::Round => tube::hit::<R>(&seen, &pieces, r.inv_length, t_max),
+            CurveKind::Flat | CurveKind::Cylinder => {
+                strip::hit::<R>(&seen, &pieces, Width::Full, r.inv_length, t_max)
+            }
+            CurveKind::Ribbon => {
+                let (n, angle) = self.end_normals(segment);
+                let along = n.map(|n| n.dot(r.z));
+                strip::hit::<R>(&seen, &pieces, Width::Ribbon { angle, along }, r.inv_length, t_max)
+            }
+        }
+    }
+
+    /// Unit normals of a ribbon at the ends of a segment, and the angle between them.
+    fn end_normals(&self, segment: u32) -> ([Vec3<f32>; 2], f32) {
+        let (strand, _, _) = self.strands.in_strand(segment);
+        let at = segment as usize + strand;
+        let unit = |n: [f32; 3]| {
+            let n = Vec3::from(n);
+            if n.length2() > 0.0 && n.is_finite() { n.normalized() } else { Vec3::splat(0.0) }
+        };
+        let n = [unit(self.normals[at]), unit(self.normals[at + 1])];
+        (n, Real::acos(n[0].dot(n[1])))
+    }
+}
+
+/// The segment of a piece, and the part it is.
+#[inline(always)]
+fn part_of(id: u32, split: u32) -> (u32, [f32; 2]) {
+    let n = 1_u32 << split;
+    let i = id & (n - 1);
+    (id >> split, [i as f32 / n as f32, (i + 1) as f32 / n as f32])
+}
+
+/// A ray and a block.
+struct BlockTest<'a, F> {
+    curves: &'a Curves,
+    block: &'a ObbBlock,
+    ray: &'a Ray,
+    first: u32,
+    t_max: f32,
+    found: &'a mut F,
+}
+
+impl<F: FnMut(RawHit) -> f32> InLanes for BlockTest<'_, F> {
+    type Output = f32;
+    /// The last limit.
+    #[inline(always)]
+    fn run<R: Real>(self) -> f32 {
+        let Entries { mut mask, t } = self.block.hit(self.ray.o, self.ray.d, self.t_max);
+        let mut limit = self.t_max;
+        if mask == 0 {
+            return limit;
+        }
+        let mut rest = mask;
+        while rest != 0 {
+            let i = rest.trailing_zeros() as usize & (WIDTH - 1);
+            rest &= rest - 1;
+            self.curves.strands.ahead(self.block.place[i]);
+        }
+        let r = RayFrame::new(self.ray);
+        while mask != 0 {
+            // The box that is entered first; a point found there often spares the others.
+            let mut i = mask.trailing_zeros() as usize & (WIDTH - 1);
+            let mut rest = mask & (mask - 1);
+            while rest != 0 {
+                let k = rest.trailing_zeros() as usize & (WIDTH - 1);
+                rest &= rest - 1;
+                i = if t[k] < t[i] { k } else { i };
+            }
+            mask &= !(1 << i);
+            if t[i] > limit {
+                break;
+            }
+            if let Some(h) = self.curves.hit_piece::<R>(self.block, i, &r, limit) {
+                let segment = self.block.id[i] >> self.curves.split;
+                limit = (self.found)(RawHit { t: h.t, id: self.first + segment, u: h.u, v: 0.5 + 0.5 * h.h });
+            }
+        }
+        limit
+    }
+}

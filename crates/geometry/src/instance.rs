@@ -1,0 +1,203 @@
+//! Groups of shapes that stand in many places: [`Instance`], [`Instances`].
+
+use core::cell::Cell;
+
+use rayon::prelude::*;
+use sparrow_math::{Aabb, Vec3, vec3};
+
+use crate::bvh::{Bvh, Kind, Others, PrimRef, RawHit, gamma};
+use crate::point::SurfacePoint;
+use crate::ray::Ray;
+
+/// A prototype at a place.
+#[derive(Clone, Copy, Debug)]
+pub struct Instance {
+    /// World space from the prototype's space: rows of a matrix, the translation in the fourth column. Any affine map that has
+    /// an inverse.
+    pub to_world: [[f32; 4]; 3],
+    /// Number of the prototype, in the order given to [`Geometry::build_instanced`](crate::Geometry::build_instanced).
+    pub prototype: u32,
+}
+
+/// An affine map: rows, the translation in the fourth column.
+type Rows<T> = [[T; 4]; 3];
+
+/// Maps a point.
+fn point(m: &Rows<f64>, p: Vec3<f64>) -> Vec3<f64> {
+    let row = |r: &[f64; 4]| r[0] * p.x + r[1] * p.y + r[2] * p.z + r[3];
+    vec3(row(&m[0]), row(&m[1]), row(&m[2]))
+}
+
+/// Maps a direction.
+fn vector(m: &Rows<f64>, v: Vec3<f64>) -> Vec3<f64> {
+    let row = |r: &[f64; 4]| r[0] * v.x + r[1] * v.y + r[2] * v.z;
+    vec3(row(&m[0]), row(&m[1]), row(&m[2]))
+}
+
+/// Maps a normal back by the inverse transpose. The length changes.
+fn normal(back: &Rows<f64>, n: Vec3<f32>) -> Vec3<f64> {
+    let n = n.to_f64();
+    let column = |j: usize| n.x * back[0][j] + n.y * back[1][j] + n.z * back[2][j];
+    vec3(column(0), column(1), column(2))
+}
+
+/// Bounds the sum of the terms of a mapped point that lies within `p` of the origin along each axis.
+fn magnitude(m: &Rows<f64>, p: Vec3<f64>) -> Vec3<f64> {
+    point(&m.map(|r| r.map(f64::abs)), p.abs())
+}
+
+/// The way back; `None` where there is none, or its entries are not finite in single precision.
+fn inverse(m: &Rows<f64>) -> Option<Rows<f64>> {
+    let column = |j: usize| vec3(m[0][j], m[1][j], m[2][j]);
+    let [a, b, c, t] = [column(0), column(1), column(2), column(3)];
+    let determinant = a.dot(b.cross(c));
+    let row = |r: Vec3<f64>| {
+        let r = r / determinant;
+        [r.x, r.y, r.z, -r.dot(t)]
+    };
+    let rows = [row(b.cross(c)), row(c.cross(a)), row(a.cross(b))];
+    rows.iter().flatten().all(|x| (*x as f32).is_finite()).then_some(rows)
+}
+
+/// An instance as rays need it.
+#[derive(Clone, Copy, Debug)]
+struct Placed {
+    /// The prototype's space from world space. It alone says where the instance is: both ways are worked out from it.
+    to_local: Rows<f32>,
+    prototype: u32,
+}
+
+impl Placed {
+    /// The ray in the prototype's space, with the same parameter along it.
+    #[inline]
+    fn ray(&self, ray: &Ray) -> Ray {
+        let [x, y, z] = &self.to_local;
+        let (o, d) = (ray.o, ray.d);
+        let point = |r: &[f32; 4]| r[0] * o.x + r[1] * o.y + r[2] * o.z + r[3];
+        let vector = |r: &[f32; 4]| r[0] * d.x + r[1] * d.y + r[2] * d.z;
+        Ray { o: vec3(point(x), point(y), point(z)), d: vec3(vector(x), vector(y), vector(z)), ..*ray }
+    }
+    fn both(&self) -> (Rows<f64>, Option<Rows<f64>>) {
+        let to_local = self.to_local.map(|r| r.map(f64::from));
+        (to_local, inverse(&to_local))
+    }
+    /// The box in world space around a box in the prototype's; `None` where it is not finite.
+    fn bounds(&self, b: &Aabb) -> Option<Aabb> {
+        let (_, to_world) = self.both();
+        let to_world = to_world?;
+        let corner = |i: usize| {
+            let pick = |axis: usize| f64::from(if i >> axis & 1 == 0 { b.lo[axis] } else { b.hi[axis] });
+            point(&to_world, vec3(pick(0), pick(1), pick(2))).to_f32()
+        };
+        let around = (0..8).map(corner).fold(Aabb::EMPTY, Aabb::grow);
+        // A ray is mapped with rounding errors as large as its origin is far: here, as far as the box.
+        let pad = around.lo.abs().max(around.hi.abs()) * gamma(8) + around.extent() * gamma(8);
+        let (lo, hi) = (around.lo - pad, around.hi + pad);
+        (lo.is_finite() && hi.is_finite() && !b.is_empty()).then_some(Aabb { lo, hi })
+    }
+    /// A surface point of the prototype, brought to world space.
+    fn surface(&self, s: &SurfacePoint) -> SurfacePoint {
+        let (to_local, Some(to_world)) = self.both() else { return *s };
+        let normal = |n: Vec3<f32>| normal(&to_local, n).normalized().to_f32();
+        let along = |v: Vec3<f32>| vector(&to_world, v.to_f64()).to_f32();
+        let p = point(&to_world, s.p.to_f64());
+        // What the point errs there, and what a ray that leaves it will err when it is mapped back.
+        let local = s.p_error.to_f64() + magnitude(&to_local, p) * f64::from(gamma(4));
+        let stretched = magnitude(&to_world.map(|[a, b, c, _]| [a, b, c, 0.0]), local);
+        let p_error = (stretched + p.abs() * f64::from(f32::EPSILON)).to_f32();
+        SurfacePoint {
+            p: p.to_f32(),
+            p_error,
+            ng: normal(s.ng),
+            ns: normal(s.ns),
+            dpdu: along(s.dpdu),
+            dpdv: along(s.dpdv),
+            tangent: along(s.tangent),
+            ..*s
+        }
+    }
+}
+
+/// All instances of a geometry and the trees of their prototypes. In the tree over everything an instance is one primitive.
+#[derive(Debug, Default)]
+pub(crate) struct Instances {
+    prototypes: Vec<Bvh>,
+    placed: Vec<Placed>,
+}
+
+impl Instances {
+    pub(crate) fn new(prototypes: Vec<Bvh>, instances: Vec<Instance>) -> Instances {
+        let place = |i: Instance| {
+            let to_local = inverse(&i.to_world.map(|r| r.map(f64::from)));
+            // A map without inverse has no box either, which keeps it out of the tree.
+            let to_local = to_local.map_or([[f32::NAN; 4]; 3], |m| m.map(|r| r.map(|x| x as f32)));
+            Placed { to_local, prototype: i.prototype }
+        };
+        Instances { prototypes, placed: instances.into_par_iter().map(place).collect() }
+    }
+    pub(crate) fn len(&self) -> usize {
+        self.placed.len()
+    }
+    pub(crate) fn bytes(&self) -> usize {
+        self.prototypes.iter().map(Bvh::bytes).sum::<usize>() + self.placed.len() * size_of::<Placed>()
+    }
+    pub(crate) fn n_nodes(&self) -> usize {
+        self.prototypes.iter().map(Bvh::n_nodes).sum()
+    }
+    /// What the tree over everything holds of them, numbered from `first`; and how many of them that leaves out.
+    pub(crate) fn refs(&self, first: u32, out: &mut Vec<PrimRef>) -> usize {
+        let before = out.len();
+        let one = |i: u32| {
+            let placed = &self.placed[i as usize];
+            let b = placed.bounds(&self.prototypes.get(placed.prototype as usize)?.bounds())?;
+            Some(PrimRef::new(first + i, b, Kind::Others))
+        };
+        out.par_extend((0..self.len() as u32).into_par_iter().filter_map(one));
+        self.len() - (out.len() - before)
+    }
+    /// A ray as the instance sees it.
+    pub(crate) fn local_ray(&self, instance: u32, ray: &Ray) -> Ray {
+        self.placed[instance as usize].ray(ray)
+    }
+    /// Maps a normal of the instance's prototype to world space. The length changes.
+    pub(crate) fn normal(&self, instance: u32, n: Vec3<f32>) -> Vec3<f32> {
+        normal(&self.placed[instance as usize].both().0, n).to_f32()
+    }
+    /// A surface point that the instance's prototype gave, brought to world space.
+    pub(crate) fn surface(&self, instance: u32, s: &SurfacePoint) -> SurfacePoint {
+        self.placed[instance as usize].surface(s)
+    }
+}
+
+/// Everything that is not a triangle of the world: its other primitives, and from `first` on its instances.
+pub(crate) struct World<'a, O> {
+    pub(crate) others: &'a O,
+    pub(crate) instances: &'a Instances,
+    pub(crate) first: u32,
+    /// The instance whose points are being offered.
+    pub(crate) current: Cell<Option<u32>>,
+}
+
+impl<O: Others> Others for World<'_, O> {
+    #[inline]
+    fn hit(&self, id: u32, ray: &Ray, t_max: f32, found: &mut impl FnMut(RawHit) -> f32) -> f32 {
+        let Some(i) = id.checked_sub(self.first) else { return self.others.hit(id, ray, t_max, found) };
+        let placed = &self.instances.placed[i as usize];
+        let Some(tree) = self.instances.prototypes.get(placed.prototype as usize) else { return t_max };
+        let local = Ray { t_max, ..placed.ray(ray) };
+        self.current.set(Some(i));
+        let mut last = t_max;
+        tree.visit(&local, self.others, |h| {
+            last = found(h);
+            last
+        });
+        self.current.set(None);
+        last
+    }
+    #[inline]
+    fn ahead(&self, id: u32) {
+        if id < self.first {
+            self.others.ahead(id);
+        }
+    }
+}

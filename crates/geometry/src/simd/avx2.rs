@@ -1,0 +1,131 @@
+//! AVX2: eight numbers in one register.
+//!
+//! A value of [`F8`] can only be made inside [`run`], that is, with a [`Found`] in hand: the type is private and
+//! reached through [`Kernel::run`] alone. This is why the intrinsics below may be called.
+
+#![allow(unsafe_code, reason = "vector registers; every operation is tested against f32")]
+
+use core::arch::x86_64::{
+    __m256, _CMP_LE_OQ, _CMP_LT_OQ, _MM_HINT_T0, _mm_prefetch, _mm256_add_ps, _mm256_andnot_ps,
+    _mm256_castps_si256, _mm256_castsi256_ps, _mm256_cmp_ps, _mm256_div_ps, _mm256_loadu_ps,
+    _mm256_max_epi32, _mm256_max_ps, _mm256_min_epi32, _mm256_min_ps, _mm256_movemask_ps, _mm256_mul_ps,
+    _mm256_set1_ps, _mm256_storeu_ps, _mm256_sub_ps,
+};
+use core::ops::{Add, Div, Mul, Sub};
+
+use wide::f32x4;
+
+use super::{Floats, Kernel, Simd};
+
+/// The processor has AVX2.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Found(());
+
+impl Found {
+    pub(super) fn find() -> Option<Found> {
+        std::arch::is_x86_feature_detected!("avx2").then_some(Found(()))
+    }
+}
+
+/// Runs `kernel` with AVX2.
+#[inline(always)]
+pub(super) fn run<K: Kernel>(_: Found, kernel: K) -> K::Output {
+    // SAFETY: AVX2 was found.
+    unsafe { in_avx2(kernel) }
+}
+
+#[target_feature(enable = "avx2")]
+fn in_avx2<K: Kernel>(kernel: K) -> K::Output {
+    kernel.run::<Avx2>()
+}
+
+/// The unit.
+struct Avx2;
+
+impl Simd for Avx2 {
+    type F4 = f32x4;
+    type F8 = F8;
+}
+
+/// Eight numbers in one register.
+#[derive(Clone, Copy, Debug)]
+#[repr(transparent)]
+struct F8(__m256);
+
+/// Calls an intrinsic.
+macro_rules! avx {
+    ($e:expr) => {
+        // SAFETY: values of this type exist only where AVX2 was found, see the head of the module.
+        unsafe { $e }
+    };
+}
+
+macro_rules! operator {
+    ($($trait:ident $f:ident $intrinsic:ident),*) => { $(
+        impl $trait for F8 {
+            type Output = F8;
+            #[inline(always)]
+            fn $f(self, o: F8) -> F8 {
+                F8(avx!($intrinsic(self.0, o.0)))
+            }
+        }
+    )* }
+}
+operator!(Add add _mm256_add_ps, Sub sub _mm256_sub_ps, Mul mul _mm256_mul_ps, Div div _mm256_div_ps);
+
+impl Floats<8> for F8 {
+    #[inline(always)]
+    fn splat(x: f32) -> F8 {
+        F8(avx!(_mm256_set1_ps(x)))
+    }
+    #[inline(always)]
+    fn load(x: &[f32; 8]) -> F8 {
+        // SAFETY: `x` holds eight numbers.
+        F8(avx!(_mm256_loadu_ps(x.as_ptr())))
+    }
+    #[inline(always)]
+    fn to_array(self) -> [f32; 8] {
+        let mut a = [0.0; 8];
+        // SAFETY: `a` holds eight numbers.
+        avx!(_mm256_storeu_ps(a.as_mut_ptr(), self.0));
+        a
+    }
+    #[inline(always)]
+    fn abs(self) -> F8 {
+        F8(avx!(_mm256_andnot_ps(_mm256_set1_ps(-0.0), self.0)))
+    }
+    #[inline(always)]
+    fn min(self, o: F8) -> F8 {
+        F8(avx!(_mm256_min_ps(self.0, o.0)))
+    }
+    #[inline(always)]
+    fn max(self, o: F8) -> F8 {
+        F8(avx!(_mm256_max_ps(self.0, o.0)))
+    }
+    #[inline(always)]
+    fn min_nonneg(self, o: F8) -> F8 {
+        F8(avx!(_mm256_castsi256_ps(_mm256_min_epi32(_mm256_castps_si256(self.0), _mm256_castps_si256(o.0)))))
+    }
+    #[inline(always)]
+    fn max_nonneg(self, o: F8) -> F8 {
+        F8(avx!(_mm256_castsi256_ps(_mm256_max_epi32(_mm256_castps_si256(self.0), _mm256_castps_si256(o.0)))))
+    }
+    #[inline(always)]
+    fn le(self, o: F8) -> u32 {
+        avx!(_mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LE_OQ>(self.0, o.0))) as u32
+    }
+    #[inline(always)]
+    fn lt(self, o: F8) -> u32 {
+        avx!(_mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LT_OQ>(self.0, o.0))) as u32
+    }
+}
+
+/// Asks for the cache lines of what `p` points to, which need not exist. Every x86-64 processor can do this.
+#[inline(always)]
+pub(super) fn prefetch<T>(p: *const T) {
+    let line = p.cast::<i8>();
+    for at in (0..size_of::<T>()).step_by(64) {
+        // SAFETY: a hint; it reads nothing that the program could see, and no address makes it fault.
+        unsafe { _mm_prefetch::<_MM_HINT_T0>(line.wrapping_add(at)) };
+    }
+}

@@ -1,0 +1,107 @@
+//! Vector registers behind one interface: [`Floats`], [`Simd`]; and the choice between them: [`Unit`].
+//!
+//! Every operation rounds as scalar `f32` does, and none is fused, so the same query gives the same bits on every unit.
+
+#[cfg(target_arch = "x86_64")]
+mod avx2;
+mod portable;
+
+use core::fmt::Debug;
+use core::ops::{Add, Div, Mul, Sub};
+
+pub(crate) use portable::Portable;
+
+/// `N` numbers side by side.
+pub(crate) trait Floats<const N: usize>:
+    Copy + Debug + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
+{
+    fn splat(x: f32) -> Self;
+    fn load(x: &[f32; N]) -> Self;
+    fn to_array(self) -> [f32; N];
+    fn abs(self) -> Self;
+    /// The smaller; either where one is NaN.
+    fn min(self, o: Self) -> Self;
+    /// The larger; either where one is NaN, `o` where both are zero.
+    fn max(self, o: Self) -> Self;
+    /// The smaller where neither is negative, else something that is not positive.
+    #[inline(always)]
+    fn min_nonneg(self, o: Self) -> Self {
+        self.min(o)
+    }
+    /// The larger where one is positive or zero without sign, else something negative.
+    #[inline(always)]
+    fn max_nonneg(self, o: Self) -> Self {
+        self.max(o)
+    }
+    /// Bit i says whether `self[i] <= o[i]`.
+    fn le(self, o: Self) -> u32;
+    /// Bit i says whether `self[i] < o[i]`.
+    fn lt(self, o: Self) -> u32;
+}
+
+/// A vector unit: its registers of four and of eight numbers.
+pub(crate) trait Simd {
+    type F4: Floats<4>;
+    type F8: Floats<8>;
+}
+
+/// Something to be computed with a vector unit that is only known when the program runs.
+///
+/// `run`, and every generic function that it calls in its loops, has to be `#[inline(always)]`: what is not inlined is compiled
+/// without the unit.
+pub(crate) trait Kernel {
+    /// What it gives.
+    type Output;
+    /// Does the work.
+    fn run<S: Simd>(self) -> Self::Output;
+}
+
+/// A vector unit that this processor has.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Unit {
+    /// Eight lanes as two halves in whatever the target always has: SSE2, NEON, or single numbers.
+    Portable,
+    #[cfg(target_arch = "x86_64")]
+    Avx2(avx2::Found),
+}
+
+impl Unit {
+    /// The best there is, or what the environment variable `SPARROW_SIMD` names: `portable` or `avx2`.
+    pub(crate) fn choose() -> Unit {
+        let wanted = std::env::var("SPARROW_SIMD");
+        Unit::named(wanted.as_deref().unwrap_or(""))
+    }
+    /// The unit of that name if this processor has it, else the best there is.
+    pub(crate) fn named(name: &str) -> Unit {
+        match name {
+            "portable" => Unit::Portable,
+            #[cfg(target_arch = "x86_64")]
+            _ => avx2::Found::find().map_or(Unit::Portable, Unit::Avx2),
+            #[cfg(not(target_arch = "x86_64"))]
+            _ => Unit::Portable,
+        }
+    }
+    /// Runs `kernel` with this unit.
+    #[inline(always)]
+    pub(crate) fn run<K: Kernel>(self, kernel: K) -> K::Output {
+        match self {
+            Unit::Portable => portable(kernel),
+            #[cfg(target_arch = "x86_64")]
+            Unit::Avx2(found) => avx2::run(found, kernel),
+        }
+    }
+}
+
+#[inline(never)]
+fn portable<K: Kernel>(kernel: K) -> K::Output {
+    kernel.run::<Portable>()
+}
+
+/// Asks for the cache lines of `list[i]` ahead of their use, where the target has an instruction for it; `i` may lie beyond.
+#[inline(always)]
+pub(crate) fn prefetch<T>(list: &[T], i: usize) {
+    #[cfg(target_arch = "x86_64")]
+    avx2::prefetch(list.as_ptr().wrapping_add(i));
+    #[cfg(not(target_arch = "x86_64"))]
+    let _ = (list, i);
+}

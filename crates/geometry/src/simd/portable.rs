@@ -1,0 +1,55 @@
+//! What every target has: halves of four numbers, one machine instruction for each operation.
+
+use wide::{f32x4, f32x8};
+
+use super::{Floats, Simd};
+
+/// SSE2, NEON, or single numbers.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Portable;
+
+impl Simd for Portable {
+    type F4 = f32x4;
+    type F8 = f32x8;
+}
+
+macro_rules! floats {
+    ($type:ident, $n:literal) => {
+        impl Floats<$n> for $type {
+            #[inline(always)]
+            fn splat(x: f32) -> $type {
+                $type::splat(x)
+            }
+            #[inline(always)]
+            fn load(x: &[f32; $n]) -> $type {
+                $type::new(*x)
+            }
+            #[inline(always)]
+            fn to_array(self) -> [f32; $n] {
+                self.to_array()
+            }
+            #[inline(always)]
+            fn abs(self) -> $type {
+                self.abs()
+            }
+            #[inline(always)]
+            fn min(self, o: $type) -> $type {
+                self.fast_min(o)
+            }
+            #[inline(always)]
+            fn max(self, o: $type) -> $type {
+                self.fast_max(o)
+            }
+            #[inline(always)]
+            fn le(self, o: $type) -> u32 {
+                self.simd_le(o).to_bitmask()
+            }
+            #[inline(always)]
+            fn lt(self, o: $type) -> u32 {
+                self.simd_lt(o).to_bitmask()
+            }
+        }
+    };
+}
+floats!(f32x4, 4);
+floats!(f32x8, 8);

@@ -1,0 +1,131 @@
+//! Direct light, by light sampling and BSDF sampling: how both share the work, [`Mis`].
+
+use std::fmt;
+use std::str::FromStr;
+
+use crate::{Heuristic, Technique};
+
+/// How two techniques that can find the same light are joined. [Veach1997, sec. 9.2]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Mis {
+    /// Both at every vertex, weighted by their densities.
+    Both(Heuristic),
+    /// One of both at every vertex, by the toss of a coin, with the balance heuristic: the best for one sample.
+    OneSample,
+    /// Lights are sampled, directions from the BSDF do not look for them.
+    LightOnly,
+    /// Only directions from the BSDF find lights.
+    BsdfOnly,
+}
+
+/// Whose turn it is at a vertex.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Turn {
+    /// A light is sampled.
+    pub light: bool,
+    /// The direction from the BSDF looks for lights.
+    pub bsdf: bool,
+    /// What is left of the uniform number that decided.
+    pub u: f32,
+}
+
+impl Mis {
+    /// Decides by the uniform number `u`.
+    #[inline]
+    pub fn turn(self, u: f32) -> Turn {
+        let both = Turn { light: true, bsdf: true, u };
+        match self {
+            Mis::Both(_) => both,
+            Mis::OneSample if u < 0.5 => Turn { bsdf: false, u: 2.0 * u, ..both },
+            Mis::OneSample => Turn { light: false, u: 2.0 * u - 1.0, ..both },
+            Mis::LightOnly => Turn { bsdf: false, ..both },
+            Mis::BsdfOnly => Turn { light: false, ..both },
+        }
+    }
+    /// Weight of a light sample, over the chance of its turn: density `p_light` against `p_bsdf`, both per steradian.
+    #[inline]
+    pub fn light_weight(self, p_light: f32, p_bsdf: f32) -> f32 {
+        self.weight(p_light, p_bsdf, 0)
+    }
+    /// Weight of a light that a direction from the BSDF found, over the chance of its turn: density `p_bsdf` against `p_light`.
+    #[inline]
+    pub fn bsdf_weight(self, p_bsdf: f32, p_light: f32) -> f32 {
+        self.weight(p_light, p_bsdf, 1)
+    }
+    #[inline]
+    fn weight(self, p_light: f32, p_bsdf: f32, k: usize) -> f32 {
+        let both = [p_light, p_bsdf].map(|pdf| Technique { count: 1.0, pdf });
+        match self {
+            Mis::Both(heuristic) => heuristic.weight(&both, k),
+            Mis::OneSample => 2.0 * Heuristic::Balance.weight(&both, k),
+            Mis::LightOnly | Mis::BsdfOnly => 1.0,
+        }
+    }
+}
+
+impl FromStr for Mis {
+    type Err = String;
+    fn from_str(s: &str) -> Result<Mis, String> {
+        match s {
+            "one-sample" => Ok(Mis::OneSample),
+            "light-only" => Ok(Mis::LightOnly),
+            "bsdf-only" => Ok(Mis::BsdfOnly),
+            _ => s.parse().map(Mis::Both).map_err(|_| {
+                let known = Heuristic::FORMS.replace(" and ", ", ");
+                format!("`{s}` is no MIS heuristic; use {known}, one-sample, light-only or bsdf-only")
+            }),
+        }
+    }
+}
+
+impl fmt::Display for Mis {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Mis::Both(heuristic) => heuristic.fmt(f),
+            Mis::OneSample => write!(f, "one-sample"),
+            Mis::LightOnly => write!(f, "light-only"),
+            Mis::BsdfOnly => write!(f, "bsdf-only"),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_light_that_both_find_counts_once() {
+        for word in [
+            "balance",
+            "power",
+            "power:3.5",
+            "cutoff:0.1",
+            "maximum",
+            "one-sample",
+            "light-only",
+            "bsdf-only",
+        ] {
+            let mis: Mis = word.parse().unwrap();
+            assert_eq!(mis.to_string(), word);
+            for (l, b) in [(1.0, 2.0), (1e-20, 1e20), (1e30, 1e30), (0.3, 1e-30), (3.0, 1.0)] {
+                // The mean over turns of the weights of those whose turn it is.
+                let sum: f32 = [0.2, 0.7].iter().fold(0.0, |sum, u| {
+                    let turn = mis.turn(*u);
+                    let light = if turn.light { mis.light_weight(l, b) } else { 0.0 };
+                    let bsdf = if turn.bsdf { mis.bsdf_weight(b, l) } else { 0.0 };
+                    sum + 0.5 * (light + bsdf)
+                });
+                assert!((sum - 1.0).abs() < 1e-5, "{mis} {l} {b}: {sum}");
+            }
+        }
+        assert_eq!(Mis::OneSample.turn(0.75), Turn { light: false, bsdf: true, u: 0.5 });
+    }
+
+    #[test]
+    fn nonsense_is_refused_with_what_there_is() {
+        for bad in ["", "blance", "power:", "power:-1", "power:nan", "cutoff:7"] {
+            let told = bad.parse::<Mis>().unwrap_err();
+            assert!(told.contains("cutoff:A") && told.contains("one-sample"), "{told}");
+        }
+    }
+}

@@ -1,0 +1,123 @@
+//! Azimuthal lobes, and where a smooth cylinder sends light around itself.
+
+use core::f64::consts::PI;
+
+use sparrow_math::{Mask, Real};
+
+use crate::microfacet::special::{erfcx, gauss_quantile};
+use crate::opaque::exp_neg;
+
+/// `x` in [-pi, pi] up to whole turns.
+#[inline(always)]
+pub fn wrapped<R: Real>(x: R) -> R {
+    x - R::of(2.0 * PI) * (x * R::of(0.5 / PI)).round()
+}
+
+/// The azimuth `Phi_p = 2 p gamma_t - 2 gamma_o + p pi` at which lobe `p` leaves, from the azimuth it came from, up to whole turns.
+/// [Marschner2003, eq. 3]
+#[inline(always)]
+pub fn exit_azimuth<R: Real>(p: u32, gamma_o: R, gamma_t: R) -> R {
+    R::of(2.0 * f64::from(p)) * gamma_t - R::of(2.0) * gamma_o + R::of(f64::from(p % 2) * PI)
+}
+
+/// A logistic density, trimmed to [-pi, pi]. [Chiang2016]
+#[derive(Clone, Copy, Debug)]
+pub struct TrimmedLogistic<R> {
+    s: R,
+    inv_s: R,
+    /// `1 / (s (F(pi) - F(-pi)))`
+    scale: R,
+    /// `F(-pi)`
+    below: R,
+}
+
+impl<R: Real> TrimmedLogistic<R> {
+    /// Of the scale `s` in rad, above zero.
+    #[inline(always)]
+    pub fn new(s: R) -> Self {
+        let inv_s = R::ONE / s;
+        let below = (R::of(-PI) * inv_s).exp();
+        let below = below / (R::ONE + below);
+        TrimmedLogistic { s, inv_s, scale: inv_s / (R::ONE - below - below), below }
+    }
+    /// Density in 1/rad at `x` in [-pi, pi].
+    #[inline(always)]
+    pub fn value(&self, x: R) -> R {
+        let e = (-x.abs() * self.inv_s).exp();
+        self.scale * e / (R::ONE + e).sqr()
+    }
+    /// Draws `x`.
+    #[inline(always)]
+    pub fn sample(&self, u: R) -> R {
+        let within = R::ONE - self.below - self.below;
+        let (low, high) = (self.below + u * within, self.below + (R::ONE - u) * within);
+        (self.s * (low / high).ln()).clamp(R::of(-PI), R::of(PI))
+    }
+}
+
+/// A Gaussian density around a circle, its standard deviation at most about one radian.
+#[derive(Clone, Copy, Debug)]
+pub struct WrappedGauss<R> {
+    std: R,
+    inv_std: R,
+}
+
+impl<R: Real> WrappedGauss<R> {
+    /// Of the standard deviation in rad, above zero.
+    #[inline(always)]
+    pub fn new(std: R) -> Self {
+        WrappedGauss { std, inv_std: R::ONE / std }
+    }
+    #[inline(always)]
+    fn line(&self, x: R) -> R {
+        exp_neg(R::of(0.5) * (x * self.inv_std).sqr()) * self.inv_std * R::of(0.398_942_280_401_432_7)
+    }
+    /// `P(|X| > |x|) / 2` on the line.
+    #[inline(always)]
+    fn tail(&self, x: R) -> R {
+        let y = x.abs() * self.inv_std * R::of(core::f64::consts::FRAC_1_SQRT_2);
+        R::of(0.5) * exp_neg(y * y) * erfcx(y)
+    }
+    /// Share of the line from `a` to `b >= a`.
+    #[inline(always)]
+    fn between(&self, a: R, b: R) -> R {
+        let (p, q) = (self.tail(a), self.tail(b));
+        let apart = a.lt(R::ZERO) & b.gt(R::ZERO);
+        R::select(apart, R::ONE - p - q, (p - q).abs())
+    }
+    /// Density in 1/rad at `x` in [-pi, pi]; of the images those within a turn count.
+    #[inline(always)]
+    pub fn value(&self, x: R) -> R {
+        self.line(x) + self.line(x.abs() - R::of(2.0 * PI))
+    }
+    /// The mean of the density over an interval around `x` in [-pi, pi]; zero where it is seven standard deviations away.
+    #[inline(always)]
+    pub fn mean(&self, x: R, width: R) -> R {
+        let reach = R::of(7.1) * self.std + R::of(0.5) * width;
+        let image = x.abs() - R::of(2.0 * PI);
+        let (near, wraps) = (x.abs().lt(reach), image.abs().lt(reach));
+        // Lanes that need neither cost nothing, and the sum is the same whoever else is in the batch.
+        let mut sum = R::ZERO;
+        if near.any() {
+            sum = self.mean_on_line(x, width).only_where(near);
+        }
+        if wraps.any() {
+            sum = sum + self.mean_on_line(image, width).only_where(wraps);
+        }
+        sum
+    }
+    #[inline(always)]
+    fn mean_on_line(&self, x: R, width: R) -> R {
+        let half = R::of(0.5) * width;
+        let (a, b) = (x - half, x + half);
+        // Where the density hardly bends, Simpson's rule loses no digits.
+        let flat = (self.line(a) + R::of(4.0) * self.line(x) + self.line(b)) * R::of(1.0 / 6.0);
+        let steep = width.gt(R::of(0.2) * self.std);
+        R::select(steep, self.between(a, b) / R::select(steep, width, R::ONE), flat)
+    }
+    /// Draws `x`.
+    #[inline(always)]
+    pub fn sample(&self, u: R) -> R {
+        R::of(core::f64::consts::SQRT_2) * self.std * gauss_quantile(u)
+    }
+}

@@ -1,0 +1,193 @@
+//! Hair and fur after Chiang et al., as pbrt-v4's `Material "hair"` means it: the near field of a rough dielectric cylinder.
+//! [Chiang2016]
+//!
+//! `q = sum_p M_p(theta_i, theta_o + shift_p) A_p(h) N_p(phi)` over R, TT, TRT and the rest, with the energy-conserving `M` of
+//! [dEon2011] and a trimmed logistic `N`. The angle inside follows from the viewer's inclination alone, so that energy is kept
+//! exactly; for that, viewer and light may not be exchanged. Signs as in pbrt-v4: a tilt `alpha > 0` centres R on
+//! `theta_i = 2 alpha - theta_o`; `h = 2 v - 1` across the curve; `sigma_a` per radius.
+//!
+//! Limits: one roughness for all lobes, a circular section; roughness below 0.02 counts as 0.02.
+//! Errata: pbrt-v4's logarithm of I_0 takes M off by up to 2 % where its series meet; ours is that of `Real::i0e`.
+
+use core::f64::consts::PI;
+
+use sparrow_math::{LocalDir, Real};
+use sparrow_spectra::Spectrum;
+
+use crate::bcsdf::weighed;
+use crate::cylinder::attenuation::Inside;
+use crate::cylinder::azimuthal::{TrimmedLogistic, exit_azimuth, wrapped};
+use crate::cylinder::longitudinal::{Longitudinal, tilted};
+use crate::cylinder::roughness::{logistic_scale, variance};
+use crate::cylinder::{FibreDir, LobeChoice, colour};
+use crate::{About, Bcsdf, BsdfSample, Lack, Model, N_LOBES, ParamBlock, ParamInfo, Uniforms};
+
+/// The least roughness: below it single precision runs out of digits.
+const SMOOTHEST: f64 = 0.02;
+
+/// A hair at one offset of the ray.
+#[derive(Clone, Copy, Debug)]
+pub struct Hair<R> {
+    sigma_a: Spectrum<R>,
+    eta: R,
+    h: R,
+    /// `M` of R, TT, and of TRT and the rest.
+    longitudinal: [Longitudinal<R>; 3],
+    azimuthal: TrimmedLogistic<R>,
+    /// Sine and cosine of the tilts of R, TT, TRT.
+    tilts: [[R; 2]; 3],
+}
+
+impl<R: Real> Model<R> for Hair<R> {
+    const ABOUT: About = About::new("hair as in pbrt-v4: rough dielectric cylinder, near field", "Chiang2016, dEon2011")
+        .anisotropic()
+        .transmits()
+        .lacks(&[
+            Lack::reciprocity("the tilt and the angle inside know the viewer's inclination alone"),
+            Lack::energy("no view is brighter than uniform light, but a lamp near the axis may be given back more than it sent"),
+        ]);
+    const PARAMS: &'static [ParamInfo] = &[
+        ParamInfo::unbounded("sigma_a").unit("1/radius").default(0.5).soft(0.0, 10.0).doc("Absorption."),
+        ParamInfo::albedo("color").default(0.5).doc("Colour of a dense tuft, in place of absorption."),
+        ParamInfo::real("eta")
+            .default(1.55)
+            .range(1.0, 3.0)
+            .soft(1.3, 1.9)
+            .doc("Relative index of refraction."),
+        ParamInfo::real("beta_m").default(0.3).soft(0.02, 1.0).doc("Roughness along the fibre."),
+        ParamInfo::real("beta_n").default(0.3).soft(0.02, 1.0).doc("Roughness around the fibre."),
+        ParamInfo::real("alpha")
+            .unit("deg")
+            .default(2.0)
+            .range(-20.0, 20.0)
+            .soft(0.0, 10.0)
+            .doc("Tilt of the scales, positive as in pbrt-v4."),
+        ParamInfo::choice("absorption", &["sigma_a", "color"]).doc("Which of the two is meant."),
+    ];
+
+    #[inline(always)]
+    fn new(p: &ParamBlock<R>) -> Self {
+        let least = R::of(SMOOTHEST);
+        let [eta, beta_m, beta_n, alpha] =
+            [p.reals[0], p.reals[1].max(least), p.reals[2].max(least), p.reals[3]];
+        let sigma_a = match p.choices[0] {
+            0 => p.spectra[0],
+            _ => colour::absorption_of_tuft(p.spectra[1], beta_n),
+        };
+        let v = variance(beta_m);
+        let (sin, cos) = (alpha * R::of(PI / 180.0)).sin_cos();
+        let [sin_2, cos_2] = doubled([sin, cos]);
+        Hair {
+            sigma_a,
+            eta,
+            h: p.h,
+            longitudinal: [
+                Longitudinal::new(v),
+                Longitudinal::new(R::of(0.25) * v),
+                Longitudinal::new(R::of(4.0) * v),
+            ],
+            azimuthal: TrimmedLogistic::new(logistic_scale(beta_n)),
+            tilts: [[-sin_2, cos_2], [sin, cos], doubled([sin_2, cos_2])],
+        }
+    }
+}
+
+/// Sine and cosine of twice the angle.
+#[inline(always)]
+fn doubled<R: Real>([sin, cos]: [R; 2]) -> [R; 2] {
+    [R::of(2.0) * sin * cos, cos.sqr() - sin.sqr()]
+}
+
+/// The fibre as one viewer sees it.
+struct Seen<R> {
+    o: FibreDir<R>,
+    /// `A_p`
+    shares: [Spectrum<R>; N_LOBES],
+    /// Probabilities of the lobes, not normalised, and their sum.
+    chances: [R; N_LOBES],
+    sum: R,
+    gamma_o: R,
+    gamma_t: R,
+}
+
+impl<R: Real> Seen<R> {
+    /// `Phi_p`
+    #[inline(always)]
+    fn exit(&self, p: u32) -> R {
+        exit_azimuth(p, self.gamma_o, self.gamma_t)
+    }
+}
+
+impl<R: Real> Hair<R> {
+    #[inline(always)]
+    fn seen(&self, wo: LocalDir<R>) -> Seen<R> {
+        let o = FibreDir::new(wo);
+        let inside = Inside::new([o.sin, o.cos], self.h, self.eta);
+        let shares = inside.attenuation(self.sigma_a);
+        let chances = [shares[0].average(), shares[1].average(), shares[2].average(), shares[3].average()];
+        let sum = ((chances[0] + chances[1]) + (chances[2] + chances[3])).max(R::of(1e-30));
+        Seen { o, shares, chances, sum, gamma_o: self.h.asin(), gamma_t: inside.angle() }
+    }
+
+    /// The viewer's inclination, tilted for lobe `p`.
+    #[inline(always)]
+    fn tilted(&self, o: &FibreDir<R>, p: usize) -> [R; 2] {
+        tilted([o.sin, o.cos], self.tilts[p])
+    }
+
+    /// `M_p N_p` of R, TT or TRT.
+    #[inline(always)]
+    fn shape(&self, seen: &Seen<R>, p: usize, theta_i: [R; 2], phi: R) -> R {
+        let away = wrapped(phi - seen.exit(p as u32));
+        self.longitudinal[p].value(theta_i, self.tilted(&seen.o, p)) * self.azimuthal.value(away)
+    }
+
+    /// `M_p N_p` of every lobe.
+    #[inline(always)]
+    fn shapes(&self, seen: &Seen<R>, wi: LocalDir<R>) -> [R; N_LOBES] {
+        let (o, i) = (&seen.o, FibreDir::new(wi));
+        let (theta_i, phi) = ([i.sin, i.cos], o.azimuth_to(&i));
+        let rest = self.longitudinal[2].value(theta_i, [o.sin, o.cos]) * R::of(0.5 / PI);
+        [
+            self.shape(seen, 0, theta_i, phi),
+            self.shape(seen, 1, theta_i, phi),
+            self.shape(seen, 2, theta_i, phi),
+            rest,
+        ]
+    }
+}
+
+impl<R: Real> Bcsdf<R> for Hair<R> {
+    #[inline(always)]
+    fn f_cos_pdf(&self, wo: LocalDir<R>, wi: LocalDir<R>) -> (Spectrum<R>, R) {
+        let seen = self.seen(wo);
+        let [r, tt, trt, rest] = self.shapes(&seen, wi);
+        let (a, c) = (&seen.shares, &seen.chances);
+        let q = (a[0] * r + a[1] * tt) + (a[2] * trt + a[3] * rest);
+        let pdf = ((c[0] * r + c[1] * tt) + (c[2] * trt + c[3] * rest)) / seen.sum;
+        (q, pdf)
+    }
+
+    #[inline(always)]
+    fn lobes(&self, wo: LocalDir<R>, wi: LocalDir<R>) -> [Spectrum<R>; N_LOBES] {
+        let seen = self.seen(wo);
+        let [r, tt, trt, rest] = self.shapes(&seen, wi);
+        let a = &seen.shares;
+        [a[0] * r, a[1] * tt, a[2] * trt, a[3] * rest]
+    }
+
+    #[inline(always)]
+    fn sample(&self, wo: LocalDir<R>, u: Uniforms<R>) -> BsdfSample<R> {
+        let seen = self.seen(wo);
+        let o = &seen.o;
+        let lobe = LobeChoice::new(u.lobe, seen.chances, seen.sum);
+        let [r, tt, trt] = [self.tilted(o, 0), self.tilted(o, 1), self.tilted(o, 2)];
+        let theta_o = [lobe.pick([r[0], tt[0], trt[0], o.sin]), lobe.pick([r[1], tt[1], trt[1], o.cos])];
+        let [m0, m1, m2] = &self.longitudinal;
+        let m = Longitudinal::select(lobe.from[1], m2, &Longitudinal::select(lobe.from[0], m1, m0));
+        let around = lobe.pick([seen.exit(0), seen.exit(1), seen.exit(2), R::ZERO]);
+        let away = R::select(lobe.from[2], R::of(2.0 * PI) * lobe.left, self.azimuthal.sample(lobe.left));
+
+        weighed(self, wo, o.turned(m.sample(theta_o, u.dir), around + away))
+    }
+}
