@@ -18,7 +18,7 @@ const ARROWS: [(&str, &[&str]); 11] = [
     ("verify", &["models", "stats", "spectra", "math"]),
     ("plot", &["models", "stats", "spectra", "math"]),
     ("geometry", &["math"]),
-    ("image", &[]),
+    ("image", &["math"]),
     ("scene", &["models", "mis", "spectra", "math"]),
     ("render", &["scene", "geometry", "models", "mis", "image", "spectra", "math"]),
 ];
