@@ -80,15 +80,19 @@ pub(crate) fn check_no_input<'a>(
     output: &Path,
     inputs: impl IntoIterator<Item = &'a Path>,
 ) -> Result<(), Failure> {
-    let Ok(output_file) = output.canonicalize() else { return Ok(()) };
-    let clash = inputs.into_iter().find(|i| i.canonicalize().is_ok_and(|i| i == output_file));
-    match clash {
-        Some(_) => Err(Failure::input(format!(
-            "{}: the scene itself reads this file; name another with -o",
-            output.display()
-        ))),
-        None => Ok(()),
+    if !is_one_of(output, inputs) {
+        return Ok(());
     }
+    Err(Failure::input(format!(
+        "{}: the scene itself reads this file; name another with -o",
+        output.display()
+    )))
+}
+
+/// `output` is there and is one of `inputs`, by whatever path.
+pub(crate) fn is_one_of<'a>(output: &Path, inputs: impl IntoIterator<Item = &'a Path>) -> bool {
+    let Ok(output) = output.canonicalize() else { return false };
+    inputs.into_iter().any(|i| i.canonicalize().is_ok_and(|i| i == output))
 }
 
 /// A device or a pipe, such as `/dev/null`: written to, never replaced.

@@ -19,7 +19,7 @@ const ARROWS: [(&str, &[&str]); 12] = [
     ("verify", &["models", "stats", "spectra", "math"]),
     ("plot", &["models", "stats", "spectra", "math"]),
     ("geometry", &["math"]),
-    ("image", &[]),
+    ("image", &["math"]),
     ("scene", &["models", "mis", "spectra", "math"]),
     ("render", &["scene", "geometry", "models", "mis", "image", "spectra", "math"]),
 ];
