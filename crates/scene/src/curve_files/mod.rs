@@ -6,7 +6,7 @@
 //!
 //! All may be compressed with gzip, told by content. Widths are diameters, in all of Sparrow.
 //!
-//! Source of the formats: http://www.cemyuksel.com/research/hairmodels; TressFX 4.1, `TressFXFileFormat.h`; Mitsuba 3,
+//! Source of the formats: <http://www.cemyuksel.com/research/hairmodels>; TressFX 4.1, `TressFXFileFormat.h`; Mitsuba 3,
 //! plugin reference, `bsplinecurve`.
 
 mod bytes;
