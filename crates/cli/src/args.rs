@@ -8,6 +8,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use sparrow_mis::Mis;
 
 use crate::compare_cmd::CompareArgs;
+use crate::groom_cmd::GroomArgs;
 use crate::plot_cmd::PlotArgs;
 
 /// Most samples per pixel: beyond it the film's sums could saturate.
@@ -33,6 +34,7 @@ pub(crate) enum Verb {
     Plot(Box<PlotArgs>),
     Models(ModelsArgs),
     Verify(VerifyArgs),
+    Groom(Box<GroomArgs>),
 }
 
 /// Render a scene to OpenEXR, with an sRGB PNG beside it

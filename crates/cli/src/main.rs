@@ -12,6 +12,7 @@ mod compare_cmd;
 mod console;
 mod failure;
 mod fibre_cmd;
+mod groom_cmd;
 mod images;
 mod info_cmd;
 mod interrupt;
@@ -48,6 +49,7 @@ fn main() -> ExitCode {
         Some(Verb::Plot(a)) => (a.json, a.quiet, plot_cmd::run(a)),
         Some(Verb::Models(a)) => (a.json, false, models_cmd::run(a)),
         Some(Verb::Verify(a)) => (a.json, false, verify_cmd::run(a)),
+        Some(Verb::Groom(a)) => (a.json, a.quiet, groom_cmd::run(a)),
         None => {
             // A broken pipe is no reason to complain about the help that nobody reads.
             let _ = Cli::command().print_help();

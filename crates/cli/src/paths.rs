@@ -105,20 +105,20 @@ fn folder_of(path: &Path) -> &Path {
     path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
-/// Writes a small file whole or not at all: under a temporary name, then renamed.
+/// Writes a file whole or not at all: under a temporary name, then renamed.
 ///
 /// # Errors
 /// Where the system refuses; then nothing is left behind.
-pub(crate) fn write_whole(path: &Path, text: &str) -> Result<(), Failure> {
+pub(crate) fn write_whole(path: &Path, bytes: impl AsRef<[u8]>) -> Result<(), Failure> {
     let mut name = std::ffi::OsString::from(".");
     name.push(path.file_name().unwrap_or_default());
     name.push(format!(".{}.tmp", process::id()));
     let temporary = path.with_file_name(name);
     let _files = interrupt::hold_files();
     let done = if is_special(path) {
-        fs::write(path, text)
+        fs::write(path, bytes)
     } else {
-        fs::write(&temporary, text).and_then(|()| fs::rename(&temporary, path))
+        fs::write(&temporary, bytes).and_then(|()| fs::rename(&temporary, path))
     };
     done.map_err(|e| {
         // The first error is the one worth telling.

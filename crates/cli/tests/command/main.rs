@@ -4,6 +4,7 @@
 
 mod compare;
 mod errors;
+mod groom;
 mod info;
 #[cfg(unix)]
 mod interrupts;
