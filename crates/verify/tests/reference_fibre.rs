@@ -122,6 +122,32 @@ fn nothing_is_lost_in_a_rough_tilted_elliptical_fibre_with_a_core() {
 }
 
 #[test]
+fn light_crosses_cortex_and_core_as_far_as_the_records_say() {
+    let records: Value =
+        serde_json::from_str(include_str!("../../models/tests/reference/values_fibres.json")).unwrap();
+    let chords =
+        records.as_array().unwrap().iter().filter(|r| r["id"].as_str().unwrap().starts_with("fur.chords."));
+    let mut n = 0;
+    for r in chords {
+        let input = |name: &str| r["inputs"][name].as_f64().unwrap();
+        let core = Core { kappa: input("kappa"), sigma_s: 0.0, sigma_a: 0.7, g: 0.0 };
+        let fibre = ReferenceFibre { core: Some(core), ..smooth(Section::CIRCLE) };
+        let mut rng = Random::new(5);
+        let mut photons = (0..100).filter_map(|_| fibre.send(dir(0.0, 0.0), input("h"), &mut rng));
+        let tt = photons.find(|p| p.lobe == 1).unwrap();
+        // Absorptions 0 and 0.2 of the cortex part the two.
+        let core = -Real::ln(tt.weight[0]) / 0.7;
+        let cortex = -Real::ln(tt.weight[1] / tt.weight[0]) / 0.2;
+        for (got, name) in [(core, "s_medulla"), (cortex, "s_cortex_total")] {
+            let want = r["value"][name].as_f64().unwrap();
+            assert!((got - want).abs() < 1e-9, "{}: {name} {got}, want {want}", r["id"]);
+        }
+        n += 1;
+    }
+    assert_eq!(n, 4);
+}
+
+#[test]
 fn a_rough_mirror_fibre_scatters_as_computed() {
     // Single scattering dominates: the density of R with F = 1 is the record's where both are far from grazing. An index of 1e6 reflects
     // all.

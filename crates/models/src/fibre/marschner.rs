@@ -265,6 +265,15 @@ impl<R: Real> Marschner<R> {
         let g = gauss(theta_h - self.shift[p], self.width[p]);
         if self.printed { g } else { R::of(0.5) * g }
     }
+    /// `q` of R, TT and TRT.
+    #[inline(always)]
+    fn scattered(&self, o: &FibreDir<R>, i: &FibreDir<R>, b: &Between<R>) -> [Spectrum<R>; 3] {
+        let theta_h = R::of(0.5) * (o.sin.atan2(o.cos) + i.sin.atan2(i.cos));
+        let scale = i.cos / b.theta_d[1].sqr().max(R::of(1e-9));
+        let r = self.attenuation(b, b.r.h, self.eta)[0] * (b.r.density * self.m(0, theta_h) * scale);
+        let tt = self.attenuation(b, b.tt.h, self.eta)[1] * (b.tt.density * self.m(1, theta_h) * scale);
+        [r, tt, self.trt(b) * (self.m(2, theta_h) * scale)]
+    }
     /// Azimuth in a chosen lobe once the inclination is known.
     ///
     /// R and TT send light of an even offset h to `Phi_p(h)`, whose density is that of the root. TRT is drawn about its caustics, and
@@ -309,9 +318,9 @@ impl<R: Real> Marschner<R> {
 impl<R: Real> Bcsdf<R> for Marschner<R> {
     #[inline(always)]
     fn f_cos_pdf(&self, wo: LocalDir<R>, wi: LocalDir<R>) -> (Spectrum<R>, R) {
-        let [r, tt, trt, _] = self.lobes(wo, wi);
         let (o, i) = (FibreDir::new(wo), FibreDir::new(wi));
         let b = self.between(&o, &i);
+        let [r, tt, trt] = self.scattered(&o, &i, &b);
         let c = self.chances(&o);
         let (theta_i, theta_o) = ([i.sin, i.cos], [o.sin, o.cos]);
         let [m0, m1, m2] = &self.around_cone;
@@ -326,12 +335,7 @@ impl<R: Real> Bcsdf<R> for Marschner<R> {
     #[inline(always)]
     fn lobes(&self, wo: LocalDir<R>, wi: LocalDir<R>) -> [Spectrum<R>; N_LOBES] {
         let (o, i) = (FibreDir::new(wo), FibreDir::new(wi));
-        let b = self.between(&o, &i);
-        let theta_h = R::of(0.5) * (o.sin.atan2(o.cos) + i.sin.atan2(i.cos));
-        let scale = i.cos / b.theta_d[1].sqr().max(R::of(1e-9));
-        let r = self.attenuation(&b, b.r.h, self.eta)[0] * (b.r.density * self.m(0, theta_h) * scale);
-        let tt = self.attenuation(&b, b.tt.h, self.eta)[1] * (b.tt.density * self.m(1, theta_h) * scale);
-        let trt = self.trt(&b) * (self.m(2, theta_h) * scale);
+        let [r, tt, trt] = self.scattered(&o, &i, &self.between(&o, &i));
         [r, tt, trt, Spectrum::ZERO]
     }
 
