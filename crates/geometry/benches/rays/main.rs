@@ -2,7 +2,8 @@
 //!
 //! `cargo bench -p sparrow-geometry --bench rays -- [SCENE] [ROUNDS] [RESOLUTION] [SETTINGS]`, with SCENE one of `mesh`, `soup`, `small`
 //! or `all`; or `instances`, and instead of SETTINGS their number; or `build`, which builds with one thread and with two. With
-//! `--features embree` and `EMBREE_LIB_DIR` naming a folder that holds `libembree4.so`, every round runs Embree beside it, and the ratio of the two is the median over the rounds. Linux only: the clock is a thread's processor time.
+//! `--features embree` and `EMBREE_LIB_DIR` naming a folder that holds `libembree4.so`, every round runs Embree beside it, and the
+//! ratio of the two is the median over the rounds. Linux only: the clock is a thread's processor time.
 
 #![allow(clippy::print_stdout, reason = "printing is what it is for")]
 #![allow(clippy::unwrap_used, reason = "a benchmark stops where something is missing")]
