@@ -1,5 +1,7 @@
 //! A scene with instances is the same scene written out, and holds what is placed often only once.
 
+#![allow(clippy::unwrap_used, reason = "writing to a string cannot fail, and a test panics when it does")]
+
 mod common;
 
 use std::fmt::Write;

@@ -40,13 +40,17 @@ pub(crate) const ALL: [Scene; 3] = [
 ];
 
 impl Scene {
+    /// Its triangles.
+    pub(crate) fn mesh(&self) -> TriangleMesh {
+        (self.mesh)()
+    }
     /// Builds the tree and times all rays, beside the first `settings` of Embree.
     #[cfg_attr(
         not(feature = "embree"),
         allow(unused_mut, unused_variables, reason = "Embree is added where it is there")
     )]
     pub(crate) fn run(&self, rounds: usize, resolution: usize, settings: usize) {
-        let mesh = (self.mesh)();
+        let mesh = self.mesh();
         println!("{}: {} triangles", self.name, mesh.indices.len());
         let instance = ShapeInstance {
             shape: Shape::Triangles(mesh.clone()),
