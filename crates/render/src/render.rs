@@ -9,6 +9,7 @@ use sparrow_spectra::Wavelengths;
 
 use crate::film::{Film, FilmTile};
 use crate::integrator::RayCounts;
+use crate::observe::{Observer, Sample, Sorting, Strategies, TileObserver};
 use crate::plan::RenderPlan;
 use crate::scene::Scene;
 
@@ -75,7 +76,8 @@ pub enum RenderError {
 }
 
 /// State that all threads share.
-struct Shared<'a> {
+struct Shared<'a, O> {
+    observer: &'a O,
     scene: &'a Scene,
     plan: &'a RenderPlan,
     film: Mutex<Film>,
@@ -85,6 +87,9 @@ struct Shared<'a> {
     stop: &'a AtomicBool,
     deadline: Option<Instant>,
 }
+
+/// What those who wait for a render want to be told, and how they stop it.
+type Watch<'a> = &'a (dyn Fn(Progress) + Sync);
 
 /// Renders a picture.
 ///
@@ -98,7 +103,34 @@ pub fn render(
     plan: &RenderPlan,
     options: &RenderOptions,
     stop: &AtomicBool,
-    watch: &(dyn Fn(Progress) + Sync),
+    watch: Watch<'_>,
+) -> Result<(Film, RenderStats), RenderError> {
+    run(scene, plan, options, stop, watch, &())
+}
+
+/// [`render()`], to the same bits, with the light of each sampling technique apart.
+///
+/// # Errors
+/// Where threads cannot be started.
+pub fn render_strategies(
+    scene: &Scene,
+    plan: &RenderPlan,
+    options: &RenderOptions,
+    stop: &AtomicBool,
+    watch: Watch<'_>,
+) -> Result<(Film, Strategies, RenderStats), RenderError> {
+    let sorting = Sorting::new(plan.size(), plan.integrator.mis);
+    let (film, stats) = run(scene, plan, options, stop, watch, &sorting)?;
+    Ok((film, sorting.into_films(), stats))
+}
+
+fn run<O: Observer>(
+    scene: &Scene,
+    plan: &RenderPlan,
+    options: &RenderOptions,
+    stop: &AtomicBool,
+    watch: Watch<'_>,
+    observer: &O,
 ) -> Result<(Film, RenderStats), RenderError> {
     let start = Instant::now();
     let pool = rayon::ThreadPoolBuilder::new()
@@ -108,6 +140,7 @@ pub fn render(
     let [width, height] = plan.size();
     let film = Film::new(width, height, options.variance);
     let shared = Shared {
+        observer,
         scene,
         plan,
         film: Mutex::new(film),
@@ -137,6 +170,7 @@ pub fn render(
             break; // It was stopped within the pass.
         }
         done += n;
+        observer.pass_ends(done);
         pass = (2 * pass).min(MAX_PASS);
     }
     let rays = *lock(&shared.rays);
@@ -158,7 +192,7 @@ fn lock<T>(m: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
     m.lock().unwrap_or_else(std::sync::PoisonError::into_inner)
 }
 
-impl Shared<'_> {
+impl<O: Observer> Shared<'_, O> {
     fn ended(&self) -> bool {
         self.stop.load(Ordering::Relaxed) || self.deadline.is_some_and(|d| Instant::now() >= d)
     }
@@ -174,16 +208,18 @@ impl Shared<'_> {
             return Ok(());
         }
         let mut tile = lock(&self.film).tile(origin, [TILE, TILE]);
+        let mut observer = self.observer.tile(origin, [TILE, TILE]);
         let mut rays = RayCounts::default();
         let [w, h] = tile.size();
         for y in origin[1]..origin[1] + h {
             for x in origin[0]..origin[0] + w {
                 for sample in samples.clone() {
-                    self.sample([x, y], sample, &mut tile, &mut rays);
+                    self.sample([x, y], sample, &mut tile, &mut observer, &mut rays);
                 }
             }
         }
         lock(&self.film).absorb(&tile)?;
+        self.observer.absorb(&observer)?;
         *lock(&self.rays) += rays;
         let n = u64::from(w) * u64::from(h) * u64::from(samples.end - samples.start);
         let n_samples = self.samples.fetch_add(n, Ordering::Relaxed) + n;
@@ -194,7 +230,14 @@ impl Shared<'_> {
 
     /// One camera sample: wavelengths, place on film and lens, radiance, film.
     #[inline]
-    fn sample(&self, pixel: [u32; 2], sample: u32, tile: &mut FilmTile, rays: &mut RayCounts) {
+    fn sample(
+        &self,
+        pixel: [u32; 2],
+        sample: u32,
+        tile: &mut FilmTile,
+        observer: &mut O::Tile,
+        rays: &mut RayCounts,
+    ) {
         let plan = self.plan;
         let [x, y] = [pixel[0] + plan.bounds[0], pixel[1] + plan.bounds[2]];
         let mut sampler = plan.sampler.start([x, y], sample);
@@ -203,9 +246,12 @@ impl Shared<'_> {
         sampler.set_dimension(2);
         let lens = sampler.get_2d();
         let ray = self.scene.camera.ray([x as f32 + 0.5 + f.offset[0], y as f32 + 0.5 + f.offset[1]], lens);
-        let l = plan.integrator.radiance(self.scene, ray, &mut lambda, &mut sampler, rays);
+        let mut record = <O::Tile as TileObserver>::Record::default();
+        let l = plan.integrator.radiance(self.scene, ray, &mut lambda, &mut sampler, rays, &mut record);
         rays.camera += 1;
         rays.scattered -= 1;
-        tile.add(pixel[0], pixel[1], plan.sensor.rgb(l, &lambda), f.weight);
+        let sample = Sample { pixel, rgb: plan.sensor.rgb(l, &lambda), weight: f.weight };
+        let rgb = observer.take(sample, &record, |part| plan.sensor.rgb(part, &lambda));
+        tile.add(pixel[0], pixel[1], rgb, f.weight);
     }
 }
