@@ -77,7 +77,7 @@ pub(crate) struct RenderArgs {
     pub(crate) max_depth: Option<u32>,
 
     /// How light sampling and BSDF sampling are weighted: balance, power (exponent 2), power:BETA, cutoff:A,
-    /// maximum, average, one-sample, light-only or bsdf-only [default: the scene's, power where it names none]
+    /// maximum, average, optimal (learned for what the camera sees first), one-sample, light-only or bsdf-only [default: the scene's, power where it names none]
     #[arg(long, value_name = "NAME", value_parser = parse_mis)]
     pub(crate) mis: Option<Mis>,
 
@@ -112,6 +112,12 @@ pub(crate) struct RenderArgs {
     /// Add the variance of each pixel, as 32-bit channels variance.R, variance.G and variance.B [default: off]
     #[arg(long)]
     pub(crate) variance: bool,
+
+    /// Write what light sampling and BSDF sampling find to this folder, which is made where it is not there: alone, their mean
+    /// weight, weighted and the deviation of one sample, as PNG of the picture's exposure and side by side in sheet.png; means
+    /// and variances as layers of strategies.exr [default: none]
+    #[arg(long, value_name = "DIR")]
+    pub(crate) strategies: Option<PathBuf>,
 
     /// Write time, rays, memory and the like to this file [default: none]
     #[arg(long, value_name = "FILE.json")]

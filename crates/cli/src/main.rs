@@ -27,6 +27,7 @@ mod process;
 mod progress;
 mod render_cmd;
 mod report;
+mod strategies;
 mod verify_cmd;
 
 use std::ffi::OsStr;

@@ -94,21 +94,28 @@ impl Picture {
     }
 
     fn save_png(&self, path: &Path, space: ColorSpace) -> Result<(), ImageError> {
-        let to_srgb = space.to_space(ColorSpace::Srgb);
-        let rgb: Vec<[f32; 3]> = match space {
-            ColorSpace::Srgb => self.rgb.clone(),
-            ColorSpace::DciP3 | ColorSpace::Rec2020 | ColorSpace::Aces2065_1 => self
-                .rgb
-                .iter()
-                .map(|p| to_srgb.map(|row| row[0] * p[0] + row[1] * p[1] + row[2] * p[2]))
-                .collect(),
-        };
-        write_png(path, self.size[0], self.size[1], &rgb)
+        write_png(path, self.size[0], self.size[1], &to_srgb(space, &self.rgb))
+    }
+
+    /// Linear RGB of the output colour space.
+    pub(crate) fn rgb(&self) -> &[[f32; 3]] {
+        &self.rgb
+    }
+}
+
+/// Linear RGB of a colour space, brought to that of sRGB.
+pub(crate) fn to_srgb(space: ColorSpace, rgb: &[[f32; 3]]) -> Vec<[f32; 3]> {
+    let to_srgb = space.to_space(ColorSpace::Srgb);
+    match space {
+        ColorSpace::Srgb => rgb.to_vec(),
+        ColorSpace::DciP3 | ColorSpace::Rec2020 | ColorSpace::Aces2065_1 => {
+            rgb.iter().map(|p| to_srgb.map(|row| row[0] * p[0] + row[1] * p[1] + row[2] * p[2])).collect()
+        }
     }
 }
 
 /// The primaries, with the white points as the standards print them.
-fn chromaticities(space: ColorSpace) -> Chromaticities {
+pub(crate) fn chromaticities(space: ColorSpace) -> Chromaticities {
     let [red, green, blue] = space.primaries().map(|p| p.map(|v| v as f32));
     let white = match space {
         // ITU-R BT.709-6, item 1.4; the same in BT.2020 and P3-D65.

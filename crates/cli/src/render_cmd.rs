@@ -1,10 +1,12 @@
 //! `sparrow render`: scene in, picture out.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use sparrow_render::film::Film;
-use sparrow_render::{Compiled, RenderOptions, RenderPlan, RenderStats, Scene, compile, render};
+use sparrow_render::{
+    Compiled, RenderOptions, RenderPlan, RenderStats, Scene, Strategies, compile, render, render_strategies,
+};
 use sparrow_scene::{Diagnostic, FilmDesc, SceneDesc, Span};
 
 use crate::args::{MAX_SPP, RenderArgs};
@@ -14,7 +16,7 @@ use crate::paths::{self, Outputs};
 use crate::process::{Usage, available_memory};
 use crate::progress::Watch;
 use crate::report::{Outcome, Stats, Status, Times, bytes, clock, si};
-use crate::{console, images, interrupt, overrides};
+use crate::{console, images, interrupt, overrides, strategies};
 
 /// Renders, and gives the exit code.
 ///
@@ -32,7 +34,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<u8, Failure> {
     let read = start.elapsed();
     overrides::apply(args, &mut desc);
     let out = outputs(args, &desc)?;
-    check_memory(&desc.film, args.variance)?;
+    check_memory(&desc.film, args)?;
     let warnings = failure::warnings(&desc.warnings, &desc.files);
     warnings.iter().for_each(|w| log.line(&w.text));
 
@@ -41,7 +43,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<u8, Failure> {
     let (scene, plan) = build(args, desc, &warnings, &mut stats, &mut log)?;
     let compiled = start.elapsed() - read;
     log.line(&beginning(&film_desc, &plan, args, threads));
-    let (film, did) = take(&scene, &plan, args, threads)?;
+    let (film, parts, did) = take(&scene, &plan, args, threads)?;
     note_losses(&did, &mut log);
     let status = fill(&mut stats, &scene, &film, &did)?;
 
@@ -55,6 +57,9 @@ pub(crate) fn run(args: &RenderArgs) -> Result<u8, Failure> {
     }
     let saved = picture.save(&out, &film_desc, scene.camera(), &stats);
     saved.map_err(|e| Failure::input(e.to_string()))?;
+    if let (Some(folder), Some(parts)) = (&args.strategies, &parts) {
+        strategies::save(folder, parts, &picture, &film_desc)?;
+    }
     stats.times = Times {
         wall_seconds: start.elapsed().as_secs_f64(),
         read_seconds: read.as_secs_f64(),
@@ -120,20 +125,32 @@ fn outputs(args: &RenderArgs, desc: &SceneDesc) -> Result<Outputs, Failure> {
             )));
         }
     }
+    if let Some(folder) = &args.strategies {
+        strategies::check(folder, desc.integrator.mis)?;
+    }
     let inputs: Vec<&Path> =
         desc.files.iter().map(|f| f.as_path()).chain(images::of(desc).into_iter().map(|i| i.0)).collect();
     for path in [Some(out.exr.as_path()), Some(out.png.as_path()), stats].into_iter().flatten() {
         paths::check_no_input(path, inputs.iter().copied())?;
     }
+    for path in strategy_files(args) {
+        paths::check_no_input(&path, inputs.iter().copied())?;
+    }
     Ok(out)
 }
 
+/// The files of `--strategies`.
+fn strategy_files(args: &RenderArgs) -> Vec<PathBuf> {
+    args.strategies.as_deref().map(strategies::files).unwrap_or_default()
+}
+
 /// Refuses a film that cannot fit, before the system ends the program for it.
-fn check_memory(film: &FilmDesc, variance: bool) -> Result<(), Failure> {
+fn check_memory(film: &FilmDesc, args: &RenderArgs) -> Result<(), Failure> {
     let [x0, x1, y0, y1] = film.pixel_bounds.map(u64::from);
     let pixels = x1.saturating_sub(x0) * y1.saturating_sub(y0);
     // One pixel of a film, and of the copies that are made when it is written.
-    let one = Film::new(1, 1, variance).bytes() as u64 + if variance { 72 } else { 36 };
+    let one = Film::new(1, 1, args.variance).bytes() as u64 + if args.variance { 72 } else { 36 };
+    let one = one + args.strategies.as_ref().map_or(0, |_| strategies::bytes_per_pixel());
     let needed = pixels.saturating_mul(one);
     match available_memory() {
         Some(free) if needed > free => Err(Failure::input(format!(
@@ -181,11 +198,16 @@ fn take(
     plan: &RenderPlan,
     args: &RenderArgs,
     threads: usize,
-) -> Result<(Film, RenderStats), Failure> {
+) -> Result<(Film, Option<Strategies>, RenderStats), Failure> {
     let watch = Watch::new(args.quiet, args.time);
     let options = RenderOptions { threads, variance: args.variance, time_limit: args.time };
     interrupt::rendering_begins();
-    let done = render(scene, plan, &options, interrupt::stop(), &|p| watch.update(p));
+    let (stop, tell) = (interrupt::stop(), |p| watch.update(p));
+    let done = match &args.strategies {
+        None => render(scene, plan, &options, stop, &tell).map(|(film, did)| (film, None, did)),
+        Some(_) => render_strategies(scene, plan, &options, stop, &tell)
+            .map(|(film, parts, did)| (film, Some(parts), did)),
+    };
     watch.finish();
     done.map_err(|e| Failure::input(e.to_string()))
 }
@@ -281,7 +303,9 @@ fn ending(out: &Outputs, stats: &Stats) -> String {
 fn hand_over(args: &RenderArgs, out: &Outputs, stats: &Stats, warnings: &[Remark]) -> Result<(), Failure> {
     let unwritable =
         |e: serde_json::Error| Failure::input(format!("the result is no JSON: {e}; please report this"));
+    let layers = strategy_files(args);
     let mut files: Vec<&Path> = vec![&out.exr, &out.png];
+    files.extend(layers.iter().map(PathBuf::as_path));
     if let Some(path) = &args.stats {
         let text = serde_json::to_string_pretty(stats).map_err(unwritable)?;
         paths::write_whole(path, &(text + "\n"))?;

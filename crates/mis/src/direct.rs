@@ -10,6 +10,10 @@ use crate::{Heuristic, Technique};
 pub enum Mis {
     /// Both at every vertex, weighted by their densities.
     Both(Heuristic),
+    /// Both at every vertex, by the balance heuristic and a control variate that is learned: the least variance. [Kondapaneni2019]
+    ///
+    /// Weights are those of balance; the rest is [`PairMoments`](crate::PairMoments), from all samples of a pixel.
+    Optimal,
     /// One of both at every vertex, by the toss of a coin, with the balance heuristic: the best for one sample.
     OneSample,
     /// Lights are sampled, directions from the BSDF do not look for them.
@@ -35,7 +39,7 @@ impl Mis {
     pub fn turn(self, u: f32) -> Turn {
         let both = Turn { light: true, bsdf: true, u };
         match self {
-            Mis::Both(_) => both,
+            Mis::Both(_) | Mis::Optimal => both,
             Mis::OneSample if u < 0.5 => Turn { bsdf: false, u: 2.0 * u, ..both },
             Mis::OneSample => Turn { light: false, u: 2.0 * u - 1.0, ..both },
             Mis::LightOnly => Turn { bsdf: false, ..both },
@@ -57,6 +61,7 @@ impl Mis {
         let both = [p_light, p_bsdf].map(|pdf| Technique { count: 1.0, pdf });
         match self {
             Mis::Both(heuristic) => heuristic.weight(&both, k),
+            Mis::Optimal => Heuristic::Balance.weight(&both, k),
             Mis::OneSample => 2.0 * Heuristic::Balance.weight(&both, k),
             Mis::LightOnly | Mis::BsdfOnly => 1.0,
         }
@@ -67,12 +72,15 @@ impl FromStr for Mis {
     type Err = String;
     fn from_str(s: &str) -> Result<Mis, String> {
         match s {
+            "optimal" => Ok(Mis::Optimal),
             "one-sample" => Ok(Mis::OneSample),
             "light-only" => Ok(Mis::LightOnly),
             "bsdf-only" => Ok(Mis::BsdfOnly),
             _ => s.parse().map(Mis::Both).map_err(|_| {
                 let known = Heuristic::FORMS.replace(" and ", ", ");
-                format!("`{s}` is no MIS heuristic; use {known}, one-sample, light-only or bsdf-only")
+                format!(
+                    "`{s}` is no MIS heuristic; use {known}, optimal, one-sample, light-only or bsdf-only"
+                )
             }),
         }
     }
@@ -82,6 +90,7 @@ impl fmt::Display for Mis {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Mis::Both(heuristic) => heuristic.fmt(f),
+            Mis::Optimal => write!(f, "optimal"),
             Mis::OneSample => write!(f, "one-sample"),
             Mis::LightOnly => write!(f, "light-only"),
             Mis::BsdfOnly => write!(f, "bsdf-only"),
@@ -101,6 +110,7 @@ mod tests {
             "power:3.5",
             "cutoff:0.1",
             "maximum",
+            "optimal",
             "one-sample",
             "light-only",
             "bsdf-only",

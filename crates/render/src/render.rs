@@ -5,11 +5,12 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 use rayon::prelude::*;
+use sparrow_mis::Mis;
 use sparrow_spectra::Wavelengths;
 
 use crate::film::{Film, FilmTile};
 use crate::integrator::RayCounts;
-use crate::observe::{Observer, Sample, Sorting, Strategies, TileObserver};
+use crate::observe::{Learning, Observer, Sample, Sorting, Strategies, TileObserver};
 use crate::plan::RenderPlan;
 use crate::scene::Scene;
 
@@ -105,10 +106,13 @@ pub fn render(
     stop: &AtomicBool,
     watch: Watch<'_>,
 ) -> Result<(Film, RenderStats), RenderError> {
+    if plan.integrator.mis == Mis::Optimal {
+        return run(scene, plan, options, stop, watch, &Learning::new(plan.size()));
+    }
     run(scene, plan, options, stop, watch, &())
 }
 
-/// [`render()`], to the same bits, with the light of each sampling technique apart.
+/// [`render()`], to the same bits, with the light of each sampling technique apart. [`Mis::Optimal`] counts as balance here.
 ///
 /// # Errors
 /// Where threads cannot be started.
@@ -170,7 +174,6 @@ fn run<O: Observer>(
             break; // It was stopped within the pass.
         }
         done += n;
-        observer.pass_ends(done);
         pass = (2 * pass).min(MAX_PASS);
     }
     let rays = *lock(&shared.rays);

@@ -87,7 +87,8 @@ fn a_technique_unweighted_is_what_it_finds_alone() {
     let bsdf = distance(&[&parts.seen, &parts.bsdf.unweighted], &alone("bsdf-only"));
     assert!(bsdf < ROUNDING, "BSDF sampling: {bsdf}");
     // MIS compensation leaves the sky to the BSDF, unless light sampling is alone.
-    let text = scene("balance", "").replace("\"string mis\"", "\"bool miscompensation\" false \"string mis\"");
+    let text =
+        scene("balance", "").replace("\"string mis\"", "\"bool miscompensation\" false \"string mis\"");
     let (_, parts) = strategies_of(&text, 1);
     // The point is found by light sampling alone, with weight 1.
     let light = distance(&[&parts.seen, &parts.light.unweighted], &alone("light-only"));

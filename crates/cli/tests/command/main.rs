@@ -12,3 +12,4 @@ mod models;
 mod plot;
 mod render;
 mod scratch;
+mod strategies;

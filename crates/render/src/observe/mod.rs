@@ -1,5 +1,6 @@
 //! What is made of a render's paths beside the picture: [`Observer`], for all tiles, and [`TileObserver`], for one.
 
+mod optimal;
 mod strategies;
 
 use sparrow_spectra::Spectrum;
@@ -7,6 +8,7 @@ use sparrow_spectra::Spectrum;
 use crate::film::FilmError;
 use crate::integrator::Record;
 
+pub(crate) use optimal::Learning;
 pub(crate) use strategies::Sorting;
 pub use strategies::{Strategies, Technique};
 
@@ -44,10 +46,6 @@ pub(crate) trait Observer: Sync {
     fn tile(&self, origin: [u32; 2], size: [u32; 2]) -> Self::Tile;
     /// Takes over what a tile has seen.
     fn absorb(&self, tile: &Self::Tile) -> Result<(), FilmError>;
-    /// Between two passes, when every pixel has `samples`: what is learned here serves the tiles of the next.
-    fn pass_ends(&self, samples: u32) {
-        let _ = samples;
-    }
 }
 
 /// Nobody looks.
