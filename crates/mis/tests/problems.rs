@@ -447,7 +447,7 @@ fn knowing_the_variances_never_costs_much_and_may_save() {
     assert!(aware.variance() < 0.05 * plain.variance(), "{aware:?} {plain:?} {factors:?}");
 }
 
-/// Beginnings of ids whose records another crate asks for.
+/// Beginnings of ids whose records `crates/render/tests/mis_lab.rs` asks for.
 const ELSEWHERE: [&str; 1] = ["plates."];
 
 #[test]
