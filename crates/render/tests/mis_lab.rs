@@ -112,8 +112,10 @@ fn the_plates_stand_where_the_records_have_them() {
         let (a, b) = (edge(0), edge(1));
         let (centre, along) = ((a + b) * 0.5, b - a);
         let normal = vec3(0.0, -along.z, along.y).normalized();
-        [(centre.y, "/value/centre_yz/0"), (centre.z, "/value/centre_yz/1")].map(|(v, p)| holds(v, p));
-        [(normal.y, "/value/normal_yz/0"), (normal.z, "/value/normal_yz/1")].map(|(v, p)| holds(v, p));
+        holds(centre.y, "/value/centre_yz/0");
+        holds(centre.z, "/value/centre_yz/1");
+        holds(normal.y, "/value/normal_yz/0");
+        holds(normal.z, "/value/normal_yz/1");
         holds(along.length2().sqrt(), "/value/width");
         holds(degrees(normal, vec3(0.0, 1.0, 0.0)), "/value/tilt_deg_from_up");
         for (eye, name) in [(vec3(0.0, 2.0, 15.0), "eye(0,2,15)"), (vec3(0.0, 6.0, 27.5), "eye(0,6,27.5)")] {
@@ -125,7 +127,7 @@ fn the_plates_stand_where_the_records_have_them() {
             holds(degrees(normal, view), &value("incidence_deg"));
         }
         // The scene has the plate there.
-        let ray = scene.camera().ray([384.0, 256.0], [0.5; 2]);
+        let ray = scene.camera().ray([384.0, 256.0], [0.5; 2], 0.0);
         let to = centre.to_f32() - ray.o;
         let hit = scene.intersect(&sparrow_geometry::Ray::new(ray.o, to.normalized())).expect("a plate");
         assert!((hit.p - centre.to_f32()).length2() < 1e-8, "{id}: met at {:?}", hit.p);
@@ -139,7 +141,7 @@ fn the_lamps_have_the_power_of_the_records() {
     let desc = plates::description(&scenes(), [768, 512]).expect("a sound scene");
     let plan = RenderPlan::new(&desc).expect("the plan of a sound scene");
     let scene = compile(desc).expect("a sound scene").scene;
-    let eye = scene.camera().ray([384.0, 256.0], [0.5; 2]).o;
+    let eye = scene.camera().ray([384.0, 256.0], [0.5; 2], 0.0).o;
     let mut radiance = Vec::new();
     for (i, x) in plates::LAMPS.into_iter().enumerate() {
         let at = |list: &str| number(&records, "plates.power", &format!("/inputs/{list}/{i}"));

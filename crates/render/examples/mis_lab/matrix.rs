@@ -65,7 +65,7 @@ pub fn measure(scenes: &Path, radius: &str, alpha: f64, mis: Mis, n: u32) -> Res
     let mut plan = RenderPlan::new(&desc).map_err(|e| e.join(", "))?;
     plan.integrator.mis = mis;
     let scene = compile(desc).map_err(|e| e.to_string())?.scene;
-    let ray = scene.camera().ray([16.0; 2], [0.5; 2]);
+    let ray = scene.camera().ray([16.0; 2], [0.5; 2], 0.0);
     let one = |sample: u32| {
         let mut lambda = Wavelengths::with_pdf([550.0; 4], [1.0; 4]);
         let mut sampler = plan.sampler.start([0, 0], sample);

@@ -55,7 +55,7 @@ fn plate_of(p: Vec3<f32>) -> Option<(usize, Vec3<f32>)> {
 /// For each pixel the highlight that it belongs to: plate and the lamp that the mirrored view comes nearest to.
 fn highlights(scene: &Scene, [w, h]: [u32; 2]) -> Vec<Option<[usize; 2]>> {
     let of = |x: u32, y: u32| {
-        let ray = scene.camera().ray([x as f32 + 0.5, y as f32 + 0.5], [0.5; 2]);
+        let ray = scene.camera().ray([x as f32 + 0.5, y as f32 + 0.5], [0.5; 2], 0.0);
         let p = scene.intersect(&ray)?.p;
         let (plate, n) = plate_of(p)?;
         let mirrored = ray.d - n * (2.0 * ray.d.dot(n));
