@@ -7,6 +7,7 @@
 //! | 2 | the command line was wrong |
 //! | 130 | interrupted; what was rendered so far is saved |
 
+mod adaptive;
 mod args;
 mod compare_cmd;
 mod console;

@@ -12,8 +12,9 @@ pub(crate) fn apply(args: &RenderArgs, desc: &mut SceneDesc) {
     if let Some(crop) = args.crop {
         desc.film.pixel_bounds = bounds_of(crop, desc.film.resolution);
     }
-    // A time limit alone means: as many samples as there is time for.
-    if let Some(spp) = args.spp.or(args.time.map(|_| MAX_SPP)) {
+    // Time or noise alone means: as many samples as it takes.
+    let endless = args.time.is_some() || args.noise.is_some();
+    if let Some(spp) = args.spp.or(endless.then_some(MAX_SPP)) {
         set_samples(desc, spp);
     }
     if let Some(seed) = args.seed {
@@ -144,6 +145,7 @@ mod tests {
         assert_eq!((i.light_sampler, i.mis_compensation), (LightSamplerName::Power, false));
         assert!(!desc.film.save_fp16);
         assert_eq!(after(scene, "--time 1").sampler.samples_per_pixel, MAX_SPP);
+        assert_eq!(after(scene, "--noise 0.1").sampler.samples_per_pixel, MAX_SPP);
         assert_eq!(after(scene, "--time 1 --spp 4").sampler.samples_per_pixel, 4);
         assert!(after(scene, "--half").film.save_fp16);
     }
