@@ -10,6 +10,7 @@ use sparrow_mis::Mis;
 use crate::compare_cmd::CompareArgs;
 use crate::groom_cmd::GroomArgs;
 use crate::plot_cmd::PlotArgs;
+use crate::race_cmd::RaceArgs;
 
 /// Most samples per pixel: beyond it the film's sums could saturate.
 pub(crate) const MAX_SPP: u32 = 1 << 22;
@@ -31,6 +32,7 @@ pub(crate) enum Verb {
     Render(Box<RenderArgs>),
     Info(InfoArgs),
     Compare(CompareArgs),
+    Race(RaceArgs),
     Plot(Box<PlotArgs>),
     Models(ModelsArgs),
     Verify(VerifyArgs),
@@ -56,7 +58,7 @@ pub(crate) struct RenderArgs {
     #[arg(long, value_name = "TEXT")]
     pub(crate) material: Vec<String>,
 
-    /// Samples per pixel [default: the scene's, 16 where it has no sampler; with --time or --noise, no limit]
+    /// Samples per pixel [default: the scene's, 16 where it has no sampler; no limit with --time or --noise]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=i64::from(MAX_SPP)))]
     pub(crate) spp: Option<u32>,
 

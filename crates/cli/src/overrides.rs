@@ -45,14 +45,18 @@ pub(crate) fn apply(args: &RenderArgs, desc: &mut SceneDesc) {
     }
 }
 
-/// The stratified sampler has as many samples as strata; the rectangle nearest to a square is taken, as pbrt-v4 does.
 fn set_samples(desc: &mut SceneDesc, spp: u32) {
     let sampler = &mut desc.sampler;
     sampler.samples_per_pixel = spp;
     if sampler.name == SamplerName::Stratified {
-        let short = (1..=spp.isqrt()).rev().find(|d| spp.is_multiple_of(*d)).unwrap_or(1);
-        sampler.strata = [spp / short, short];
+        sampler.strata = strata(spp);
     }
+}
+
+/// The stratified sampler has as many samples as strata; the rectangle nearest to a square is taken, as pbrt-v4 does.
+pub(crate) fn strata(spp: u32) -> [u32; 2] {
+    let short = (1..=spp.isqrt()).rev().find(|d| spp.is_multiple_of(*d)).unwrap_or(1);
+    [spp / short, short]
 }
 
 /// Another size of the whole picture; the part that is rendered keeps its place in it.

@@ -10,5 +10,6 @@ mod info;
 mod interrupts;
 mod models;
 mod plot;
+mod race;
 mod render;
 mod scratch;
