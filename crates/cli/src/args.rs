@@ -107,8 +107,8 @@ pub(crate) struct RenderArgs {
     #[arg(long, value_name = "SECONDS", value_parser = parse_time)]
     pub(crate) time: Option<Duration>,
 
-    /// Sample until the noise is this: the square root of relMSE against a converged picture (see `sparrow compare`), as
-    /// estimated from two independent halves; 0.02 is 2 % of a pixel. Samples go where they are wanted, with --spp as
+    /// Sample until the noise is this: the square root of what `sparrow compare` would call relmse-trim0.1 against a converged
+    /// picture, estimated from two independent halves; 0.02 is 2 % of a pixel. Samples go where they are wanted, with --spp as
     /// the most of a pixel; channel `samples` and OUT-samples.png tell where [default: the same samples everywhere]
     #[arg(long, value_name = "TARGET", value_parser = parse_noise)]
     pub(crate) noise: Option<f64>,

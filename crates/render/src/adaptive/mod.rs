@@ -1,7 +1,7 @@
 //! Rendering to a stated noise: [`render_to_noise`].
 //!
-//! **Noise** is the root of the relMSE that a converged picture would show, as [`sparrow_image::metrics`] has it:
-//! `sqrt(mean((p - r)^2 / (r^2 + 0.01)))` over pixels and channels. It is estimated from two [`Halves`] with independent
+//! **Noise** is the root of the relMSE that a converged picture would show, without the worst 0.1 % of the pixels, as
+//! [`sparrow_image::metrics`] has it: `sqrt(mean((p - r)^2 / (r^2 + 0.01)))` over channels and all other pixels. It is estimated from two [`Halves`] with independent
 //! points, since the scatter of stratified samples tells too much; see [`noise()`].
 //!
 //! **Pilot.** Both halves get the same number of samples everywhere, doubled until they make an eighth of what equal
@@ -21,7 +21,7 @@ mod noise;
 use std::sync::atomic::AtomicBool;
 
 use self::allocation::{Allocation, Counts};
-pub use self::noise::noise;
+pub use self::noise::{TRIM, noise};
 use crate::film::{Film, Halves};
 use crate::plan::RenderPlan;
 use crate::render::{Progress, RenderError, RenderOptions, RenderStats};
