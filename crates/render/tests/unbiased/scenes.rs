@@ -59,7 +59,7 @@ fn reflected(e: f64) -> Truth {
     Truth::Known(0.5 * FRAC_1_PI * e)
 }
 
-/// Irradiance under the middle of a square of radiance 5 and side 2 at height 2: four times its quarter. [Howell2010, C-11]
+/// Irradiance under the middle of a square of radiance 5 and side 2 at height 2: four times its quarter. [Howell, C-11]
 fn under_square() -> f64 {
     let (a, s) = (0.5f64, 1.25f64.sqrt());
     5.0 * PI * 4.0 * (2.0 * a / s * Real::atan2(a / s, 1.0)) / (2.0 * PI)
