@@ -68,6 +68,22 @@ impl Mis {
     }
 }
 
+impl Mis {
+    /// One word of every form that is read.
+    pub const EXAMPLES: [&'static str; 10] = [
+        "balance",
+        "power",
+        "power:3.5",
+        "cutoff:0.1",
+        "maximum",
+        "average",
+        "optimal",
+        "one-sample",
+        "light-only",
+        "bsdf-only",
+    ];
+}
+
 impl FromStr for Mis {
     type Err = String;
     fn from_str(s: &str) -> Result<Mis, String> {
@@ -104,17 +120,7 @@ mod tests {
 
     #[test]
     fn a_light_that_both_find_counts_once() {
-        for word in [
-            "balance",
-            "power",
-            "power:3.5",
-            "cutoff:0.1",
-            "maximum",
-            "optimal",
-            "one-sample",
-            "light-only",
-            "bsdf-only",
-        ] {
+        for word in Mis::EXAMPLES {
             let mis: Mis = word.parse().unwrap();
             assert_eq!(mis.to_string(), word);
             for (l, b) in [(1.0, 2.0), (1e-20, 1e20), (1e30, 1e30), (0.3, 1e-30), (3.0, 1.0)] {
@@ -129,6 +135,20 @@ mod tests {
             }
         }
         assert_eq!(Mis::OneSample.turn(0.75), Turn { light: false, bsdf: true, u: 0.5 });
+    }
+
+    #[test]
+    fn there_is_an_example_of_every_form() {
+        let told = "".parse::<Mis>().unwrap_err();
+        let (_, forms) = told.split_once("; use ").unwrap();
+        for form in forms.split(", ").flat_map(|f| f.split(" or ")) {
+            let word = form.split(' ').next().unwrap_or_default();
+            let alike = |e: &str| match word.split_once(':') {
+                Some((name, _)) => e.split_once(':').is_some_and(|(n, _)| n == name),
+                None => e == word,
+            };
+            assert!(Mis::EXAMPLES.into_iter().any(alike), "no example of {form}");
+        }
     }
 
     #[test]

@@ -5,8 +5,10 @@
 //! ```
 //!
 //! [`compile()`] turns a description into an immutable [`Scene`]; [`RenderPlan`] holds how the picture is taken; [`render()`]
-//! distributes tiles over threads. The light transport itself is one page: [`PathIntegrator::radiance`].
+//! distributes tiles over threads,
+//! [`render_to_noise()`] with samples where the noise is. The light transport itself is one page: [`PathIntegrator::radiance`].
 
+pub mod adaptive;
 pub mod camera;
 pub mod compile;
 pub mod distribution;
@@ -18,12 +20,14 @@ mod material;
 mod observe;
 mod plan;
 mod render;
+mod run;
 pub mod sampler;
 mod scatter;
 mod scene;
 mod spectrum;
 mod texture;
 
+pub use adaptive::render_to_noise;
 pub use compile::{CompileError, Compiled, compile};
 pub use integrator::{Finder, PathIntegrator, RayCounts, Record};
 pub use observe::{Strategies, Technique};

@@ -12,6 +12,7 @@ use sparrow_render::film::Film;
 use sparrow_render::{Strategies, Technique};
 use sparrow_scene::FilmDesc;
 
+use crate::args::RenderArgs;
 use crate::failure::Failure;
 use crate::output::{Picture, chromaticities, to_srgb};
 use crate::{interrupt, paths};
@@ -21,11 +22,17 @@ type Pixels = Vec<[f32; 3]>;
 /// What a technique's layers are called.
 const LAYERS: [&str; 4] = ["unweighted", "weight", "weighted", "deviation"];
 
-/// Sees to it that the folder can be written.
+/// Sees to it that the folder can be written, and that the heuristic can do what else is asked for.
 ///
 /// # Errors
 /// What is in the way, and what to do.
-pub(crate) fn check(folder: &Path, mis: Mis) -> Result<(), Failure> {
+pub(crate) fn check(args: &RenderArgs, mis: Mis) -> Result<(), Failure> {
+    if mis == Mis::Optimal && args.noise.is_some() {
+        return Err(Failure::usage(
+            "--noise and the weights `optimal` both learn from samples, and not yet together; use --mis balance or --spp",
+        ));
+    }
+    let Some(folder) = &args.strategies else { return Ok(()) };
     if mis == Mis::Optimal {
         return Err(Failure::usage(
             "--strategies shows weights of places, and those of `optimal` depend on the light as well; use --mis balance, on \
