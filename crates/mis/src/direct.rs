@@ -77,10 +77,10 @@ impl Mis {
         "cutoff:0.1",
         "maximum",
         "average",
-        "optimal",
         "one-sample",
         "light-only",
         "bsdf-only",
+        "optimal",
     ];
 }
 

@@ -10,6 +10,7 @@ use crate::integrator::RayCounts;
 use crate::observe::{Learning, Observer, Sorting, Strategies};
 use crate::plan::RenderPlan;
 use crate::run::{Exposure, Job, Run};
+use crate::sampler::{Sampler, SamplerConfig};
 use crate::scene::Scene;
 
 /// Most samples per pixel of one pass: between passes a render can stop with an even picture.
@@ -129,8 +130,7 @@ fn observed<O: Observer>(
 ) -> Result<(Film, RenderStats), RenderError> {
     let run = Run::new(scene, plan, options, stop, watch)?;
     let [width, height] = plan.size();
-    let film = Film::new(width, height, options.variance);
-    let exposure = Exposure::observed(&plan.sampler, film, observer);
+    let mut film = Film::new(width, height, options.variance);
     let origins = run.origins();
     let total = u64::from(width) * u64::from(height) * u64::from(plan.samples_per_pixel);
     run.expect(total);
@@ -138,15 +138,19 @@ fn observed<O: Observer>(
     let mut pass = 1;
     while done < plan.samples_per_pixel && !run.ended() {
         let n = pass.min(plan.samples_per_pixel - done);
-        let job = |&origin| Job { exposure: &exposure, origin, samples: done..done + n };
-        if !run.pass(&origins.iter().map(job).collect::<Vec<Job<'_, O>>>())? {
+        let own = if O::LEARNS { points_of_pass(&plan.sampler, done, n) } else { None };
+        let (sampler, samples) = own.as_ref().map_or((&plan.sampler, done..done + n), |s| (s, 0..n));
+        let exposure = Exposure::observed(sampler, film, observer);
+        let job = |&origin| Job { exposure: &exposure, origin, samples: samples.clone() };
+        let whole = run.pass(&origins.iter().map(job).collect::<Vec<Job<'_, O>>>())?;
+        film = exposure.into_film();
+        if !whole {
             break; // It was stopped within the pass.
         }
         done += n;
         pass = (2 * pass).min(MAX_PASS);
     }
     let stats = run.stats();
-    let film = exposure.into_film();
     let stats = RenderStats {
         samples_per_pixel: done,
         stopped: stats.samples < total,
@@ -154,4 +158,11 @@ fn observed<O: Observer>(
         ..stats
     };
     Ok((film, stats))
+}
+
+/// Points of one pass, independent of those of all others; none where there is one set of points only.
+fn points_of_pass(sampler: &Sampler, done: u32, n: u32) -> Option<Sampler> {
+    let config = sampler.config();
+    let seed = config.seed ^ u64::from(done).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    config.is_random().then(|| Sampler::new(&SamplerConfig { seed, samples_per_pixel: n, ..*config }))
 }

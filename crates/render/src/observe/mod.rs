@@ -42,6 +42,8 @@ pub(crate) trait TileObserver {
 pub(crate) trait Observer: Sync {
     /// For one tile.
     type Tile: TileObserver;
+    /// Passes get points of their own: what is learned in one is independent of the samples of the next.
+    const LEARNS: bool = false;
     /// Begins a tile.
     fn tile(&self, origin: [u32; 2], size: [u32; 2]) -> Self::Tile;
     /// Takes over what a tile has seen.
