@@ -98,13 +98,10 @@ impl Runner {
 
     fn set(&mut self, seed: u64, samples_per_pixel: u32) {
         let old = *self.plan.sampler.config();
-        let kind = match old.kind {
-            SamplerKind::Stratified { jitter, .. } => {
-                let [x, y] = overrides::strata(samples_per_pixel);
-                SamplerKind::Stratified { x, y, jitter }
-            }
-            other => other,
-        };
+        let mut kind = old.kind;
+        if let SamplerKind::Stratified { x, y, .. } = &mut kind {
+            [*x, *y] = overrides::strata(samples_per_pixel);
+        }
         self.plan.sampler = Sampler::new(&SamplerConfig { kind, seed, samples_per_pixel, ..old });
         self.plan.samples_per_pixel = samples_per_pixel;
     }
