@@ -47,6 +47,12 @@ impl Runner {
             Failure::inputs(faults.iter().map(|f| Remark::in_file(&args.scene, f)).collect())
         };
         let plan = RenderPlan::new(&desc).map_err(refused)?;
+        if !plan.sampler.config().is_random() {
+            return Err(Failure::input(format!(
+                "{}: the sampler has randomization \"none\", so that all seeds give one picture; use \"fastowen\"",
+                args.scene.display()
+            )));
+        }
         let Compiled { scene, notes } = compile(desc).map_err(|e| refused(e.0))?;
         notes.iter().for_each(|n| log(&format!("note: {}: {n}", setting.name)));
         let fixed = args.spp.is_some() || args.noise.is_some();
