@@ -47,6 +47,12 @@ impl Runner {
             Failure::inputs(faults.iter().map(|f| Remark::in_file(&args.scene, f)).collect())
         };
         let plan = RenderPlan::new(&desc).map_err(refused)?;
+        if !plan.sampler.config().is_random() {
+            return Err(Failure::input(format!(
+                "{}: the sampler has randomization \"none\", so that all seeds give one picture; use \"fastowen\"",
+                args.scene.display()
+            )));
+        }
         let Compiled { scene, notes } = compile(desc).map_err(|e| refused(e.0))?;
         notes.iter().for_each(|n| log(&format!("note: {}: {n}", setting.name)));
         let fixed = args.spp.is_some() || args.noise.is_some();
@@ -98,13 +104,10 @@ impl Runner {
 
     fn set(&mut self, seed: u64, samples_per_pixel: u32) {
         let old = *self.plan.sampler.config();
-        let kind = match old.kind {
-            SamplerKind::Stratified { jitter, .. } => {
-                let [x, y] = overrides::strata(samples_per_pixel);
-                SamplerKind::Stratified { x, y, jitter }
-            }
-            other => other,
-        };
+        let mut kind = old.kind;
+        if let SamplerKind::Stratified { x, y, .. } = &mut kind {
+            [*x, *y] = overrides::strata(samples_per_pixel);
+        }
         self.plan.sampler = Sampler::new(&SamplerConfig { kind, seed, samples_per_pixel, ..old });
         self.plan.samples_per_pixel = samples_per_pixel;
     }

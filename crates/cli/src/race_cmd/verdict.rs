@@ -45,7 +45,9 @@ impl Verdict {
             Some(reference) => pictures.against(reference)?,
             None => pictures.scatter(),
         };
-        let cost = |i: usize, seed: usize| Real::ln(relmse[i][seed] * pictures.runs[i][seed].cpu_seconds);
+        // A black picture has no error at all.
+        let cost =
+            |i: usize, seed: usize| Real::ln(relmse[i][seed].max(1e-30) * pictures.runs[i][seed].cpu_seconds);
         let seeds = 0..relmse[0].len().min(relmse[1].len());
         let gains: Vec<f64> = seeds.map(|seed| cost(1, seed) - cost(0, seed)).collect();
         let (mean, reach) = mean_interval(&gains, LEVEL);
