@@ -13,7 +13,7 @@ pub enum Finder {
     Bsdf(u32),
 }
 
-/// Whoever wants to know where the light of a path comes from. `()` does not, and costs nothing.
+/// Whoever wants to know where the light of a path comes from. `()` does not.
 pub trait Record {
     /// The path found light: what it adds to the radiance before its MIS weight, and that weight.
     fn found(&mut self, by: Finder, light: Spectrum<f32>, weight: f32);
