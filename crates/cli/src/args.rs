@@ -10,6 +10,7 @@ use sparrow_mis::Mis;
 use crate::compare_cmd::CompareArgs;
 use crate::groom_cmd::GroomArgs;
 use crate::plot_cmd::PlotArgs;
+use crate::race_cmd::RaceArgs;
 
 /// Most samples per pixel: beyond it the film's sums could saturate.
 pub(crate) const MAX_SPP: u32 = 1 << 22;
@@ -31,6 +32,7 @@ pub(crate) enum Verb {
     Render(Box<RenderArgs>),
     Info(InfoArgs),
     Compare(CompareArgs),
+    Race(RaceArgs),
     Plot(Box<PlotArgs>),
     Models(ModelsArgs),
     Verify(VerifyArgs),
@@ -56,7 +58,7 @@ pub(crate) struct RenderArgs {
     #[arg(long, value_name = "TEXT")]
     pub(crate) material: Vec<String>,
 
-    /// Samples per pixel [default: the scene's, 16 where it has no sampler; with --time, no limit]
+    /// Samples per pixel [default: the scene's, 16 where it has no sampler; no limit with --time or --noise]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=i64::from(MAX_SPP)))]
     pub(crate) spp: Option<u32>,
 
@@ -77,7 +79,7 @@ pub(crate) struct RenderArgs {
     pub(crate) max_depth: Option<u32>,
 
     /// How light sampling and BSDF sampling are weighted: balance, power (exponent 2), power:BETA, cutoff:A,
-    /// maximum, average, one-sample, light-only or bsdf-only [default: the scene's, power where it names none]
+    /// maximum, average, optimal (learned for what the camera sees first), one-sample, light-only or bsdf-only [default: the scene's, power where it names none]
     #[arg(long, value_name = "NAME", value_parser = parse_mis)]
     pub(crate) mis: Option<Mis>,
 
@@ -105,6 +107,12 @@ pub(crate) struct RenderArgs {
     #[arg(long, value_name = "SECONDS", value_parser = parse_time)]
     pub(crate) time: Option<Duration>,
 
+    /// Sample until the noise is this: the square root of what `sparrow compare` would call relmse-trim0.1 against a converged
+    /// picture, estimated from two independent halves; 0.02 is 2 % of a pixel. Samples go where they are wanted, with --spp as
+    /// the most of a pixel; channel `samples` and OUT-samples.png tell where [default: the same samples everywhere]
+    #[arg(long, value_name = "TARGET", value_parser = parse_noise)]
+    pub(crate) noise: Option<f64>,
+
     /// Store colours as 16-bit floats [default: the film's "savefp16", on where it says nothing]
     #[arg(long, value_name = "on|off", num_args = 0..=1, require_equals = true, default_missing_value = "on")]
     pub(crate) half: Option<Switch>,
@@ -112,6 +120,12 @@ pub(crate) struct RenderArgs {
     /// Add the variance of each pixel, as 32-bit channels variance.R, variance.G and variance.B [default: off]
     #[arg(long)]
     pub(crate) variance: bool,
+
+    /// Write what light sampling and BSDF sampling find to this folder, which is made where it is not there: alone, their mean
+    /// weight, weighted and the deviation of one sample, as PNG of the picture's exposure and side by side in sheet.png; means
+    /// and variances as layers of strategies.exr [default: none]
+    #[arg(long, value_name = "DIR", conflicts_with = "noise")]
+    pub(crate) strategies: Option<PathBuf>,
 
     /// Write time, rays, memory and the like to this file [default: none]
     #[arg(long, value_name = "FILE.json")]
@@ -268,6 +282,17 @@ fn parse_resolution(s: &str) -> Result<[u32; 2], String> {
     Ok([side(w)?, side(h)?])
 }
 
+fn parse_noise(s: &str) -> Result<f64, String> {
+    match s.parse::<f64>() {
+        Ok(v) if (1e-4..=10.0).contains(&v) => Ok(v),
+        Ok(_) | Err(_) => {
+            Err("give a number from 0.0001 to 10, such as 0.02 for 2 % of a pixel; without noise \
+                               a picture would need endless samples"
+                .to_owned())
+        }
+    }
+}
+
 fn parse_time(s: &str) -> Result<Duration, String> {
     const FORM: &str = "give a number of seconds above 0 and up to 1e8";
     let seconds: f64 = s.parse().map_err(|_| FORM)?;
@@ -301,6 +326,10 @@ mod tests {
             assert!(parse_resolution(bad).is_err(), "{bad}");
         }
         assert_eq!(parse_time("0.25"), Ok(Duration::from_millis(250)));
+        assert_eq!(parse_noise("0.02"), Ok(0.02));
+        for bad in ["0", "-0.1", "nan", "inf", "1e-9", "11", "little"] {
+            assert!(parse_noise(bad).unwrap_err().contains("0.02"), "{bad}");
+        }
         for bad in ["0", "-1", "nan", "inf", "1e30", "soon"] {
             assert!(parse_time(bad).is_err(), "{bad}");
         }

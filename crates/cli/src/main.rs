@@ -7,6 +7,7 @@
 //! | 2 | the command line was wrong |
 //! | 130 | interrupted; what was rendered so far is saved |
 
+mod adaptive;
 mod args;
 mod compare_cmd;
 mod console;
@@ -25,8 +26,10 @@ mod paths;
 mod plot_cmd;
 mod process;
 mod progress;
+mod race_cmd;
 mod render_cmd;
 mod report;
+mod strategies;
 mod verify_cmd;
 
 use std::ffi::OsStr;
@@ -46,6 +49,7 @@ fn main() -> ExitCode {
         Some(Verb::Render(a)) => (a.json, a.quiet, render_cmd::run(a)),
         Some(Verb::Info(a)) => (a.json, false, info_cmd::run(a)),
         Some(Verb::Compare(a)) => (a.json, a.quiet, compare_cmd::run(a)),
+        Some(Verb::Race(a)) => (a.json, a.quiet, race_cmd::run(a)),
         Some(Verb::Plot(a)) => (a.json, a.quiet, plot_cmd::run(a)),
         Some(Verb::Models(a)) => (a.json, false, models_cmd::run(a)),
         Some(Verb::Verify(a)) => (a.json, false, verify_cmd::run(a)),

@@ -4,13 +4,13 @@ use std::path::Path;
 
 use sparrow_image::{Attribute, Chromaticities, ImageError, OutputImage, write_exr, write_png};
 use sparrow_render::camera::Camera;
-use sparrow_render::film::Film;
+use sparrow_render::film;
 use sparrow_scene::FilmDesc;
 use sparrow_spectra::ColorSpace;
 
-use crate::interrupt;
 use crate::paths::Outputs;
 use crate::report::Stats;
+use crate::{adaptive, interrupt};
 
 /// The largest 16-bit float; what exceeds it would become infinite and spread in every later filter.
 const MAX_HALF: f32 = 65_504.0;
@@ -23,34 +23,43 @@ pub(crate) struct Picture {
     rgb: Vec<[f32; 3]>,
     /// Empty where the film keeps none.
     variance: Vec<[f32; 3]>,
+    /// Number of samples of each pixel; empty where all have the same.
+    samples: Vec<f32>,
     /// Pixels whose colour was cut to what 16 bits hold.
     pub(crate) n_clipped: usize,
 }
 
 impl Picture {
-    /// Reads the film; `half` cuts colours to the range of 16-bit floats.
-    pub(crate) fn new(film: &Film, half: bool) -> Picture {
-        let n = film.width() as usize * film.height() as usize;
-        let mut rgb = Vec::with_capacity(n);
-        let mut variance = Vec::with_capacity(if film.has_variance() { n } else { 0 });
+    /// Reads a finished render; `half` cuts colours to the range of 16-bit floats, `variance` and `samples` keep those layers.
+    pub(crate) fn new(film: &dyn film::Picture, half: bool, variance: bool, samples: bool) -> Picture {
+        let [width, height] = film.size();
+        let n = width as usize * height as usize;
         let limit = if half { MAX_HALF } else { f32::MAX };
-        let mut n_clipped = 0;
-        for y in 0..film.height() {
-            for x in 0..film.width() {
-                let pixel = film.pixel(x, y);
-                let exact = pixel.rgb.map(|v| v as f32);
-                let cut = exact.map(|v| v.clamp(-limit, limit));
-                n_clipped += usize::from(exact.iter().zip(cut).any(|(a, b)| a.abs() > b.abs()));
-                rgb.push(cut);
-                if film.has_variance() {
-                    variance.push(pixel.variance.map(|v| v as f32));
-                }
+        let room = |wanted: bool| if wanted { n } else { 0 };
+        let mut picture = Picture {
+            size: [width as usize, height as usize],
+            rgb: Vec::with_capacity(n),
+            variance: Vec::with_capacity(room(variance)),
+            samples: Vec::with_capacity(room(samples)),
+            n_clipped: 0,
+        };
+        for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
+            let pixel = film.pixel(x, y);
+            let exact = pixel.rgb.map(|v| v as f32);
+            let cut = exact.map(|v| v.clamp(-limit, limit));
+            picture.n_clipped += usize::from(exact.iter().zip(cut).any(|(a, b)| a.abs() > b.abs()));
+            picture.rgb.push(cut);
+            if variance && film.has_variance() {
+                picture.variance.push(pixel.variance.map(|v| v as f32));
+            }
+            if samples {
+                picture.samples.push(pixel.n as f32);
             }
         }
-        Picture { size: [film.width() as usize, film.height() as usize], rgb, variance, n_clipped }
+        picture
     }
 
-    /// Writes both files. The program does not end while one of them is being written.
+    /// Writes all files. The program does not end while one of them is being written.
     ///
     /// # Errors
     /// Where a file cannot be written; nothing of that file is left behind.
@@ -67,6 +76,9 @@ impl Picture {
             write_exr(&out.exr, &image)?;
         }
         drop(image);
+        if let Some(path) = &out.samples {
+            adaptive::save_map(path, self.size[0], &self.samples)?;
+        }
         let _files = interrupt::hold_files();
         self.save_png(&out.png, film.color_space)
     }
@@ -85,6 +97,9 @@ impl Picture {
             // Always 32 bits: the variance of a dark pixel is below what 16 bits can tell from zero.
             image = image.with_rgb("variance", &self.variance);
         }
+        if !self.samples.is_empty() {
+            image = image.with_f32("samples", self.samples.clone());
+        }
         image.chromaticities = Some(chromaticities(film.color_space));
         let [camera_from_world, ndc_from_world] = matrices(camera, film.resolution);
         image.world_to_camera = Some(camera_from_world);
@@ -94,21 +109,28 @@ impl Picture {
     }
 
     fn save_png(&self, path: &Path, space: ColorSpace) -> Result<(), ImageError> {
-        let to_srgb = space.to_space(ColorSpace::Srgb);
-        let rgb: Vec<[f32; 3]> = match space {
-            ColorSpace::Srgb => self.rgb.clone(),
-            ColorSpace::DciP3 | ColorSpace::Rec2020 | ColorSpace::Aces2065_1 => self
-                .rgb
-                .iter()
-                .map(|p| to_srgb.map(|row| row[0] * p[0] + row[1] * p[1] + row[2] * p[2]))
-                .collect(),
-        };
-        write_png(path, self.size[0], self.size[1], &rgb)
+        write_png(path, self.size[0], self.size[1], &to_srgb(space, &self.rgb))
+    }
+
+    /// Linear RGB of the output colour space.
+    pub(crate) fn rgb(&self) -> &[[f32; 3]] {
+        &self.rgb
+    }
+}
+
+/// Linear RGB of a colour space, brought to that of sRGB.
+pub(crate) fn to_srgb(space: ColorSpace, rgb: &[[f32; 3]]) -> Vec<[f32; 3]> {
+    let to_srgb = space.to_space(ColorSpace::Srgb);
+    match space {
+        ColorSpace::Srgb => rgb.to_vec(),
+        ColorSpace::DciP3 | ColorSpace::Rec2020 | ColorSpace::Aces2065_1 => {
+            rgb.iter().map(|p| to_srgb.map(|row| row[0] * p[0] + row[1] * p[1] + row[2] * p[2])).collect()
+        }
     }
 }
 
 /// The primaries, with the white points as the standards print them.
-fn chromaticities(space: ColorSpace) -> Chromaticities {
+pub(crate) fn chromaticities(space: ColorSpace) -> Chromaticities {
     let [red, green, blue] = space.primaries().map(|p| p.map(|v| v as f32));
     let white = match space {
         // ITU-R BT.709-6, item 1.4; the same in BT.2020 and P3-D65.
@@ -173,6 +195,7 @@ fn quoted(word: &str) -> String {
 mod tests {
     use super::*;
     use sparrow_math::{Transform, vec3};
+    use sparrow_render::film::Film;
     use sparrow_scene::{CameraDesc, Projection};
 
     fn camera() -> Camera {
@@ -212,11 +235,11 @@ mod tests {
         let mut film = Film::new(2, 1, true);
         film.add(0, 0, [1e6, 1.0, -1e6], 1.0);
         film.add(1, 0, [0.5, 2.0, 4.0], 1.0);
-        let half = Picture::new(&film, true);
+        let half = Picture::new(&film, true, true, false);
         assert_eq!((half.n_clipped, half.rgb[0]), (1, [MAX_HALF, 1.0, -MAX_HALF]));
-        let full = Picture::new(&film, false);
+        let full = Picture::new(&film, false, true, true);
         assert_eq!((full.n_clipped, full.rgb[0]), (0, [1e6, 1.0, -1e6]));
-        assert_eq!(full.variance.len(), 2);
+        assert_eq!((full.variance.len(), full.samples), (2, vec![1.0, 1.0]));
     }
 
     #[test]

@@ -12,8 +12,9 @@ pub(crate) fn apply(args: &RenderArgs, desc: &mut SceneDesc) {
     if let Some(crop) = args.crop {
         desc.film.pixel_bounds = bounds_of(crop, desc.film.resolution);
     }
-    // A time limit alone means: as many samples as there is time for.
-    if let Some(spp) = args.spp.or(args.time.map(|_| MAX_SPP)) {
+    // Time or noise alone means: as many samples as it takes.
+    let endless = args.time.is_some() || args.noise.is_some();
+    if let Some(spp) = args.spp.or(endless.then_some(MAX_SPP)) {
         set_samples(desc, spp);
     }
     if let Some(seed) = args.seed {
@@ -44,14 +45,18 @@ pub(crate) fn apply(args: &RenderArgs, desc: &mut SceneDesc) {
     }
 }
 
-/// The stratified sampler has as many samples as strata; the rectangle nearest to a square is taken, as pbrt-v4 does.
 fn set_samples(desc: &mut SceneDesc, spp: u32) {
     let sampler = &mut desc.sampler;
     sampler.samples_per_pixel = spp;
     if sampler.name == SamplerName::Stratified {
-        let short = (1..=spp.isqrt()).rev().find(|d| spp.is_multiple_of(*d)).unwrap_or(1);
-        sampler.strata = [spp / short, short];
+        sampler.strata = strata(spp);
     }
+}
+
+/// The stratified sampler has as many samples as strata; the rectangle nearest to a square is taken, as pbrt-v4 does.
+pub(crate) fn strata(spp: u32) -> [u32; 2] {
+    let short = (1..=spp.isqrt()).rev().find(|d| spp.is_multiple_of(*d)).unwrap_or(1);
+    [spp / short, short]
 }
 
 /// Another size of the whole picture; the part that is rendered keeps its place in it.
@@ -144,6 +149,7 @@ mod tests {
         assert_eq!((i.light_sampler, i.mis_compensation), (LightSamplerName::Power, false));
         assert!(!desc.film.save_fp16);
         assert_eq!(after(scene, "--time 1").sampler.samples_per_pixel, MAX_SPP);
+        assert_eq!(after(scene, "--noise 0.1").sampler.samples_per_pixel, MAX_SPP);
         assert_eq!(after(scene, "--time 1 --spp 4").sampler.samples_per_pixel, 4);
         assert!(after(scene, "--half").film.save_fp16);
     }

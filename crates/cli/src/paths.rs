@@ -15,6 +15,8 @@ pub(crate) struct Outputs {
     pub(crate) exr: PathBuf,
     /// The picture to look at.
     pub(crate) png: PathBuf,
+    /// Where samples went, with `--noise`.
+    pub(crate) samples: Option<PathBuf>,
 }
 
 impl Outputs {
@@ -31,7 +33,20 @@ impl Outputs {
                 PathBuf::from(name)
             }
         };
-        Outputs { png: exr.with_extension("png"), exr }
+        Outputs { png: exr.with_extension("png"), exr, samples: None }
+    }
+
+    /// With a map of the samples beside it.
+    pub(crate) fn with_samples(mut self) -> Outputs {
+        let mut name = self.exr.file_stem().unwrap_or_default().to_os_string();
+        name.push("-samples.png");
+        self.samples = Some(self.exr.with_file_name(name));
+        self
+    }
+
+    /// All files.
+    pub(crate) fn files(&self) -> impl Iterator<Item = &Path> {
+        [&self.exr, &self.png].into_iter().chain(&self.samples).map(PathBuf::as_path)
     }
 }
 
@@ -141,6 +156,8 @@ mod tests {
         assert_eq!(exr(None, Some("/etc/b.pfm")), Path::new("b.exr"), "the scene names no folders");
         assert_eq!(exr(None, None), Path::new("box.v2.exr"));
         let out = Outputs::new(None, Some(Path::new("../c.d.exr")), Path::new("s.pbrt"));
+        let map = out.clone().with_samples();
+        assert_eq!(map.files().last(), Some(Path::new("c.d-samples.png")));
         assert_eq!((out.exr, out.png), (PathBuf::from("c.d.exr"), PathBuf::from("c.d.png")));
     }
 

@@ -1,10 +1,13 @@
 //! `sparrow render`: scene in, picture out.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use sparrow_render::film::Film;
-use sparrow_render::{Compiled, RenderOptions, RenderPlan, RenderStats, Scene, compile, render};
+use sparrow_render::film::{self, Film};
+use sparrow_render::{
+    Compiled, RenderOptions, RenderPlan, RenderStats, Scene, Strategies, compile, render, render_strategies,
+    render_to_noise,
+};
 use sparrow_scene::{Diagnostic, FilmDesc, SceneDesc, Span};
 
 use crate::args::{MAX_SPP, RenderArgs};
@@ -14,7 +17,7 @@ use crate::paths::{self, Outputs};
 use crate::process::{Usage, available_memory};
 use crate::progress::Watch;
 use crate::report::{Outcome, Stats, Status, Times, bytes, clock, si};
-use crate::{console, images, interrupt, overrides};
+use crate::{adaptive, console, images, interrupt, overrides, strategies};
 
 /// Renders, and gives the exit code.
 ///
@@ -32,7 +35,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<u8, Failure> {
     let read = start.elapsed();
     overrides::apply(args, &mut desc);
     let out = outputs(args, &desc)?;
-    check_memory(&desc.film, args.variance)?;
+    check_memory(&desc.film, args)?;
     let warnings = failure::warnings(&desc.warnings, &desc.files);
     warnings.iter().for_each(|w| log.line(&w.text));
 
@@ -41,12 +44,13 @@ pub(crate) fn run(args: &RenderArgs) -> Result<u8, Failure> {
     let (scene, plan) = build(args, desc, &warnings, &mut stats, &mut log)?;
     let compiled = start.elapsed() - read;
     log.line(&beginning(&film_desc, &plan, args, threads));
-    let (film, did) = take(&scene, &plan, args, threads)?;
+    let (film, parts, did) = take(&scene, &plan, args, threads)?;
     note_losses(&did, &mut log);
-    let status = fill(&mut stats, &scene, &film, &did)?;
+    adaptive::note_noise(args, &did, &mut stats, |note| log.note(note));
+    let status = fill(&mut stats, &scene, film.bytes(), &did)?;
 
     let write_start = Instant::now();
-    let picture = Picture::new(&film, film_desc.save_fp16);
+    let picture = Picture::new(&*film, film_desc.save_fp16, args.variance, args.noise.is_some());
     if picture.n_clipped > 0 {
         log.note(format!(
             "{} pixels are brighter than 16-bit floats can hold and were cut at 65504; keep them with --half=off",
@@ -55,6 +59,9 @@ pub(crate) fn run(args: &RenderArgs) -> Result<u8, Failure> {
     }
     let saved = picture.save(&out, &film_desc, scene.camera(), &stats);
     saved.map_err(|e| Failure::input(e.to_string()))?;
+    if let (Some(folder), Some(parts)) = (&args.strategies, &parts) {
+        strategies::save(folder, parts, &picture, &film_desc)?;
+    }
     stats.times = Times {
         wall_seconds: start.elapsed().as_secs_f64(),
         read_seconds: read.as_secs_f64(),
@@ -89,6 +96,7 @@ impl Log {
 
 /// The paths that the user named, before a large scene is read.
 fn check_named_paths(args: &RenderArgs) -> Result<(), Failure> {
+    adaptive::check(args)?;
     if let Some(stats) = &args.stats {
         paths::check_writable(stats)?;
         paths::check_no_input(stats, [args.scene.as_path()])?;
@@ -110,8 +118,9 @@ fn start_threads(args: &RenderArgs) -> Result<usize, Failure> {
 /// The files to be written, all checked.
 fn outputs(args: &RenderArgs, desc: &SceneDesc) -> Result<Outputs, Failure> {
     let out = Outputs::new(args.output.as_deref(), desc.film.filename.as_deref(), &args.scene);
+    let out = if args.noise.is_some() { out.with_samples() } else { out };
     let stats = args.stats.as_deref();
-    for path in [&out.exr, &out.png] {
+    for path in out.files() {
         paths::check_writable(path)?;
         if stats == Some(path) {
             return Err(Failure::usage(format!(
@@ -120,20 +129,32 @@ fn outputs(args: &RenderArgs, desc: &SceneDesc) -> Result<Outputs, Failure> {
             )));
         }
     }
+    strategies::check(args, desc.integrator.mis)?;
     let inputs: Vec<&Path> =
         desc.files.iter().map(|f| f.as_path()).chain(images::of(desc).into_iter().map(|i| i.0)).collect();
-    for path in [Some(out.exr.as_path()), Some(out.png.as_path()), stats].into_iter().flatten() {
+    for path in out.files().chain(stats) {
         paths::check_no_input(path, inputs.iter().copied())?;
+    }
+    for path in strategy_files(args) {
+        paths::check_no_input(&path, inputs.iter().copied())?;
     }
     Ok(out)
 }
 
+/// The files of `--strategies`.
+fn strategy_files(args: &RenderArgs) -> Vec<PathBuf> {
+    args.strategies.as_deref().map(strategies::files).unwrap_or_default()
+}
+
 /// Refuses a film that cannot fit, before the system ends the program for it.
-fn check_memory(film: &FilmDesc, variance: bool) -> Result<(), Failure> {
+fn check_memory(film: &FilmDesc, args: &RenderArgs) -> Result<(), Failure> {
     let [x0, x1, y0, y1] = film.pixel_bounds.map(u64::from);
     let pixels = x1.saturating_sub(x0) * y1.saturating_sub(y0);
-    // One pixel of a film, and of the copies that are made when it is written.
-    let one = Film::new(1, 1, variance).bytes() as u64 + if variance { 72 } else { 36 };
+    // One pixel of a film, or of two, and of the copies that are made when it is written.
+    let adaptive = args.noise.is_some();
+    let pixel = Film::new(1, 1, args.variance || adaptive).bytes() as u64;
+    let one = if adaptive { 2 * pixel + 8 } else { pixel } + if args.variance { 72 } else { 36 };
+    let one = one + args.strategies.as_ref().map_or(0, |_| strategies::bytes_per_pixel());
     let needed = pixels.saturating_mul(one);
     match available_memory() {
         Some(free) if needed > free => Err(Failure::input(format!(
@@ -175,17 +196,24 @@ fn build(
     Ok((scene, plan))
 }
 
+/// A finished render, the light of each technique where it was asked for, and what was done.
+type Taken = (Box<dyn film::Picture>, Option<Strategies>, RenderStats);
+
 /// Renders, with progress.
-fn take(
-    scene: &Scene,
-    plan: &RenderPlan,
-    args: &RenderArgs,
-    threads: usize,
-) -> Result<(Film, RenderStats), Failure> {
+fn take(scene: &Scene, plan: &RenderPlan, args: &RenderArgs, threads: usize) -> Result<Taken, Failure> {
     let watch = Watch::new(args.quiet, args.time);
     let options = RenderOptions { threads, variance: args.variance, time_limit: args.time };
     interrupt::rendering_begins();
-    let done = render(scene, plan, &options, interrupt::stop(), &|p| watch.update(p));
+    let (stop, tell) = (interrupt::stop(), |p| watch.update(p));
+    let done = match (args.noise, &args.strategies) {
+        (Some(target), _) => render_to_noise(scene, plan, target, &options, stop, &tell)
+            .map(|(halves, did)| (Box::new(halves) as Box<dyn film::Picture>, None, did)),
+        (None, Some(_)) => render_strategies(scene, plan, &options, stop, &tell)
+            .map(|(film, parts, did)| (Box::new(film) as _, Some(parts), did)),
+        (None, None) => {
+            render(scene, plan, &options, stop, &tell).map(|(film, did)| (Box::new(film) as _, None, did))
+        }
+    };
     watch.finish();
     done.map_err(|e| Failure::input(e.to_string()))
 }
@@ -203,7 +231,7 @@ fn note_losses(did: &RenderStats, log: &mut Log) {
 ///
 /// # Errors
 /// Where it did nothing, so that there is nothing to save.
-fn fill(stats: &mut Stats, scene: &Scene, film: &Film, did: &RenderStats) -> Result<Status, Failure> {
+fn fill(stats: &mut Stats, scene: &Scene, film_bytes: usize, did: &RenderStats) -> Result<Status, Failure> {
     let interrupted = interrupt::stop().load(std::sync::atomic::Ordering::SeqCst);
     let status = match (did.stopped, interrupted) {
         (false, _) => Status::Done,
@@ -234,7 +262,7 @@ fn fill(stats: &mut Stats, scene: &Scene, film: &Film, did: &RenderStats) -> Res
     stats.lights = scene.lights().len();
     stats.materials = scene.n_materials();
     stats.scene_bytes = scene.bytes();
-    stats.film_bytes = film.bytes();
+    stats.film_bytes = film_bytes;
     Ok(status)
 }
 
@@ -253,6 +281,7 @@ fn beginning(film: &FilmDesc, plan: &RenderPlan, args: &RenderArgs, threads: usi
     };
     let seconds = |t: Duration| format!("{} s", t.as_secs_f64());
     let goal = match (plan.samples_per_pixel, args.time) {
+        _ if args.noise.is_some() => adaptive::goal(args),
         (spp, Some(t)) if spp >= MAX_SPP => format!("for {}", seconds(t)),
         (spp, Some(t)) => format!("with {spp} samples per pixel, for at most {}", seconds(t)),
         (spp, None) => format!("with {spp} samples per pixel"),
@@ -268,11 +297,14 @@ fn ending(out: &Outputs, stats: &Stats) -> String {
     };
     let time = stats.times.render_seconds;
     let time = if time < 60.0 { format!("{time:.2} s") } else { clock(time) };
+    let samples = match &stats.noise {
+        Some(noise) => noise.to_string(),
+        None => format!("{} samples per pixel", stats.samples_per_pixel),
+    };
     format!(
-        "wrote {} and {}{how}: {} samples per pixel in {time}, {}rays/s",
+        "wrote {} and {}{how}: {samples} in {time}, {}rays/s",
         out.exr.display(),
         out.png.display(),
-        stats.samples_per_pixel,
         si(stats.rays_per_second)
     )
 }
@@ -281,7 +313,8 @@ fn ending(out: &Outputs, stats: &Stats) -> String {
 fn hand_over(args: &RenderArgs, out: &Outputs, stats: &Stats, warnings: &[Remark]) -> Result<(), Failure> {
     let unwritable =
         |e: serde_json::Error| Failure::input(format!("the result is no JSON: {e}; please report this"));
-    let mut files: Vec<&Path> = vec![&out.exr, &out.png];
+    let layers = strategy_files(args);
+    let mut files: Vec<&Path> = out.files().chain(layers.iter().map(PathBuf::as_path)).collect();
     if let Some(path) = &args.stats {
         let text = serde_json::to_string_pretty(stats).map_err(unwritable)?;
         paths::write_whole(path, &(text + "\n"))?;

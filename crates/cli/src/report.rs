@@ -5,6 +5,7 @@ use sparrow_geometry::BuildStats;
 use sparrow_render::RayCounts;
 use sparrow_scene::SceneDesc;
 
+use crate::adaptive::NoiseReport;
 use crate::args::RenderArgs;
 use crate::failure::Remark;
 use crate::names;
@@ -93,6 +94,8 @@ pub(crate) struct Stats {
     /// That every pixel has got.
     pub(crate) samples_per_pixel: u32,
     pub(crate) samples_per_pixel_wanted: u32,
+    /// With `--noise`.
+    pub(crate) noise: Option<NoiseReport>,
     pub(crate) rejected_samples: u64,
     pub(crate) rays: Rays,
     pub(crate) samples_per_second: f64,
@@ -134,6 +137,7 @@ impl Stats {
             samples: 0,
             samples_per_pixel: 0,
             samples_per_pixel_wanted: desc.sampler.samples_per_pixel,
+            noise: None,
             rejected_samples: 0,
             rays: RayCounts::default().into(),
             samples_per_second: 0.0,

@@ -10,6 +10,10 @@ use crate::{Heuristic, Technique};
 pub enum Mis {
     /// Both at every vertex, weighted by their densities.
     Both(Heuristic),
+    /// Both at every vertex, by the balance heuristic and a control variate that is learned: the least variance. [Kondapaneni2019]
+    ///
+    /// Weights are those of balance; the rest is [`PairMoments`](crate::PairMoments), from all samples of a pixel.
+    Optimal,
     /// One of both at every vertex, by the toss of a coin, with the balance heuristic: the best for one sample.
     OneSample,
     /// Lights are sampled, directions from the BSDF do not look for them.
@@ -35,7 +39,7 @@ impl Mis {
     pub fn turn(self, u: f32) -> Turn {
         let both = Turn { light: true, bsdf: true, u };
         match self {
-            Mis::Both(_) => both,
+            Mis::Both(_) | Mis::Optimal => both,
             Mis::OneSample if u < 0.5 => Turn { bsdf: false, u: 2.0 * u, ..both },
             Mis::OneSample => Turn { light: false, u: 2.0 * u - 1.0, ..both },
             Mis::LightOnly => Turn { bsdf: false, ..both },
@@ -57,22 +61,42 @@ impl Mis {
         let both = [p_light, p_bsdf].map(|pdf| Technique { count: 1.0, pdf });
         match self {
             Mis::Both(heuristic) => heuristic.weight(&both, k),
+            Mis::Optimal => Heuristic::Balance.weight(&both, k),
             Mis::OneSample => 2.0 * Heuristic::Balance.weight(&both, k),
             Mis::LightOnly | Mis::BsdfOnly => 1.0,
         }
     }
 }
 
+impl Mis {
+    /// One word of every form that is read.
+    pub const EXAMPLES: [&'static str; 10] = [
+        "balance",
+        "power",
+        "power:3.5",
+        "cutoff:0.1",
+        "maximum",
+        "average",
+        "one-sample",
+        "light-only",
+        "bsdf-only",
+        "optimal",
+    ];
+}
+
 impl FromStr for Mis {
     type Err = String;
     fn from_str(s: &str) -> Result<Mis, String> {
         match s {
+            "optimal" => Ok(Mis::Optimal),
             "one-sample" => Ok(Mis::OneSample),
             "light-only" => Ok(Mis::LightOnly),
             "bsdf-only" => Ok(Mis::BsdfOnly),
             _ => s.parse().map(Mis::Both).map_err(|_| {
                 let known = Heuristic::FORMS.replace(" and ", ", ");
-                format!("`{s}` is no MIS heuristic; use {known}, one-sample, light-only or bsdf-only")
+                format!(
+                    "`{s}` is no MIS heuristic; use {known}, optimal, one-sample, light-only or bsdf-only"
+                )
             }),
         }
     }
@@ -82,6 +106,7 @@ impl fmt::Display for Mis {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Mis::Both(heuristic) => heuristic.fmt(f),
+            Mis::Optimal => write!(f, "optimal"),
             Mis::OneSample => write!(f, "one-sample"),
             Mis::LightOnly => write!(f, "light-only"),
             Mis::BsdfOnly => write!(f, "bsdf-only"),
@@ -95,16 +120,7 @@ mod tests {
 
     #[test]
     fn a_light_that_both_find_counts_once() {
-        for word in [
-            "balance",
-            "power",
-            "power:3.5",
-            "cutoff:0.1",
-            "maximum",
-            "one-sample",
-            "light-only",
-            "bsdf-only",
-        ] {
+        for word in Mis::EXAMPLES {
             let mis: Mis = word.parse().unwrap();
             assert_eq!(mis.to_string(), word);
             for (l, b) in [(1.0, 2.0), (1e-20, 1e20), (1e30, 1e30), (0.3, 1e-30), (3.0, 1.0)] {
@@ -119,6 +135,20 @@ mod tests {
             }
         }
         assert_eq!(Mis::OneSample.turn(0.75), Turn { light: false, bsdf: true, u: 0.5 });
+    }
+
+    #[test]
+    fn there_is_an_example_of_every_form() {
+        let told = "".parse::<Mis>().unwrap_err();
+        let (_, forms) = told.split_once("; use ").unwrap();
+        for form in forms.split(", ").flat_map(|f| f.split(" or ")) {
+            let word = form.split(' ').next().unwrap_or_default();
+            let alike = |e: &str| match word.split_once(':') {
+                Some((name, _)) => e.split_once(':').is_some_and(|(n, _)| n == name),
+                None => e == word,
+            };
+            assert!(Mis::EXAMPLES.into_iter().any(alike), "no example of {form}");
+        }
     }
 
     #[test]

@@ -14,7 +14,7 @@
 //! | weights from densities: balance, power, cutoff, maximum, average | [`Heuristic`] |
 //! | the two techniques of direct light | [`Mis`] |
 //! | the estimator with several samples, and with one sample of one technique | [`multi_sample`], [`one_sample`] |
-//! | the weights of least variance [Kondapaneni2019] | [`Moments`], [`control_variate`] |
+//! | the weights of least variance [Kondapaneni2019] | [`Moments`], [`control_variate`]; of two techniques [`PairMoments`] |
 //! | densities scaled by how noisy each technique is [Grittmann2019] | [`variance_factor`], [`Heuristic::weight`] |
 //! | a tabulated density that leaves to others what they do anyway [Karlik2019] | [`compensate`], [`sharpen`] |
 
@@ -24,6 +24,7 @@ mod estimator;
 mod heuristic;
 mod linear;
 mod optimal;
+mod pair;
 mod variance;
 
 pub use compensation::{compensate, sharpen};
@@ -31,4 +32,5 @@ pub use direct::{Mis, Turn};
 pub use estimator::{Drawn, multi_sample, one_sample};
 pub use heuristic::{Heuristic, ParseError, Technique};
 pub use optimal::{Moments, control_variate};
+pub use pair::PairMoments;
 pub use variance::variance_factor;

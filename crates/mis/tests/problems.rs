@@ -7,8 +7,8 @@ use std::sync::{LazyLock, Mutex, PoisonError};
 use serde_json::Value;
 use sparrow_math::Real;
 use sparrow_mis::{
-    Drawn, Heuristic, Moments, Technique, compensate, control_variate, multi_sample, one_sample, sharpen,
-    variance_factor,
+    Drawn, Heuristic, Moments, PairMoments, Technique, compensate, control_variate, multi_sample, one_sample,
+    sharpen, variance_factor,
 };
 use sparrow_stats::{Mean, Random};
 
@@ -267,6 +267,36 @@ fn optimal_weights_of_problem_a() {
     near(mean.variance(), variance, 0.1, "progressive");
 }
 
+fn optimal_weights_of_two_techniques_are_one_number() {
+    let alpha = [0, 1].map(|i| record("A.optimal", &format!("/value/alpha/{i}")));
+    let variance = record("A.optimal", "/value/variance");
+    let mut r = Random::new(8);
+    let mut pair = || {
+        let (mut b, mut z) = (0.0, 0.0);
+        for by in 0..2 {
+            let x = draw_a(by, &mut r);
+            let pdf = pdf_a(x);
+            b += multi_sample(Heuristic::Balance, &[1.0; 2], Drawn { by, f: f_a(x), pdf: &pdf });
+            let other = pdf[1 - by] / (pdf[0] + pdf[1]);
+            z += if by == 0 { other } else { -other };
+        }
+        (b, z)
+    };
+    let mut moments = PairMoments::<1>::default();
+    for _ in 0..200_000 {
+        let (b, z) = pair();
+        moments.add([b], z);
+    }
+    let [c] = moments.slope();
+    near(c, alpha[1] - alpha[0], 5e-3, "c");
+    let (mean, error) = simulate(500_000, 0, |_| {
+        let (b, z) = pair();
+        b - c * z
+    });
+    assert!((mean.value() - 1.0 / 3.0).abs() < 4.0 * mean.standard_error(), "{mean:?}");
+    near(mean.variance(), variance, 5.0 * error, "B - c Z");
+}
+
 fn problem_b_is_saved_by_the_good_technique() {
     // In s = sqrt x, dx = 2 s ds.
     let f = |s: f64| 1.0 / s;
@@ -417,7 +447,7 @@ fn knowing_the_variances_never_costs_much_and_may_save() {
     assert!(aware.variance() < 0.05 * plain.variance(), "{aware:?} {plain:?} {factors:?}");
 }
 
-/// Beginnings of ids whose records another crate asks for.
+/// Beginnings of ids whose records `crates/render/tests/mis_lab.rs` asks for.
 const ELSEWHERE: [&str; 1] = ["plates."];
 
 #[test]
@@ -425,6 +455,7 @@ fn every_record_is_asked_for_and_holds() {
     problem_a_by_quadrature();
     problem_a_by_drawing();
     optimal_weights_of_problem_a();
+    optimal_weights_of_two_techniques_are_one_number();
     problem_b_is_saved_by_the_good_technique();
     problem_c_shows_both_faces_of_compensation();
     lights_of_all_sizes_on_surfaces_of_all_widths();

@@ -5,8 +5,10 @@
 //! ```
 //!
 //! [`compile()`] turns a description into an immutable [`Scene`]; [`RenderPlan`] holds how the picture is taken; [`render()`]
-//! distributes tiles over threads. The light transport itself is one page: [`PathIntegrator::radiance`].
+//! distributes tiles over threads,
+//! [`render_to_noise()`] with samples where the noise is. The light transport itself is one page: [`PathIntegrator::radiance`].
 
+pub mod adaptive;
 pub mod camera;
 pub mod compile;
 pub mod distribution;
@@ -15,17 +17,21 @@ pub mod filter;
 mod integrator;
 pub mod light;
 mod material;
+mod observe;
 mod plan;
 mod render;
+mod run;
 pub mod sampler;
 mod scatter;
 mod scene;
 mod spectrum;
 mod texture;
 
+pub use adaptive::render_to_noise;
 pub use compile::{CompileError, Compiled, compile};
-pub use integrator::{PathIntegrator, RayCounts};
+pub use integrator::{Finder, PathIntegrator, RayCounts, Record};
+pub use observe::{Strategies, Technique};
 pub use plan::{FilmSensor, RenderPlan};
-pub use render::{Progress, RenderError, RenderOptions, RenderStats, render};
+pub use render::{Progress, RenderError, RenderOptions, RenderStats, render, render_strategies};
 pub use scatter::{Density, Scatter, ScatterSample};
 pub use scene::{LastVertex, Scene};

@@ -1,19 +1,18 @@
 //! Rendering: tiles over threads, samples in passes, sums on a film.
 
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
-use std::time::{Duration, Instant};
+use std::sync::atomic::AtomicBool;
+use std::time::Duration;
 
-use rayon::prelude::*;
-use sparrow_spectra::Wavelengths;
+use sparrow_mis::Mis;
 
-use crate::film::{Film, FilmTile};
+use crate::film::Film;
 use crate::integrator::RayCounts;
+use crate::observe::{Learning, Observer, Sorting, Strategies};
 use crate::plan::RenderPlan;
+use crate::run::{Exposure, Job, Run};
+use crate::sampler::{Sampler, SamplerConfig};
 use crate::scene::Scene;
 
-/// Pixels along the side of a tile.
-const TILE: u32 = 16;
 /// Most samples per pixel of one pass: between passes a render can stop with an even picture.
 const MAX_PASS: u32 = 32;
 
@@ -48,8 +47,10 @@ pub struct RenderStats {
     pub rays: RayCounts,
     /// Camera samples taken.
     pub samples: u64,
-    /// Samples per pixel of the passes that were completed.
+    /// Samples that every pixel has from the passes that were completed.
     pub samples_per_pixel: u32,
+    /// Estimate of the noise, where the render was to reach one; see [`crate::adaptive`].
+    pub noise: Option<f64>,
     /// It was stopped before its end.
     pub stopped: bool,
     /// Samples that were no numbers and were left out.
@@ -69,24 +70,21 @@ pub enum RenderError {
         /// What the system says.
         reason: String,
     },
+    /// Two renders with different seeds would take the same points, so that their difference tells nothing.
+    #[error(
+        "noise is estimated from two pictures with points of their own, and randomization \"none\" has one set of \
+         points; use \"fastowen\" in the scene's sampler, or --spp in place of --noise"
+    )]
+    SamePoints,
     /// Our own mistake: a tile did not fit the film.
     #[error("a tile does not fit its film ({0}); please report this")]
     Film(#[from] crate::film::FilmError),
 }
 
-/// State that all threads share.
-struct Shared<'a> {
-    scene: &'a Scene,
-    plan: &'a RenderPlan,
-    film: Mutex<Film>,
-    rays: Mutex<RayCounts>,
-    samples: AtomicU64,
-    rays_so_far: AtomicU64,
-    stop: &'a AtomicBool,
-    deadline: Option<Instant>,
-}
+/// What those who wait for a render want to be told.
+type Watch<'a> = &'a (dyn Fn(Progress) + Sync);
 
-/// Renders a picture.
+/// Renders a picture with the same number of samples in every pixel.
 ///
 /// The film holds exact sums, so the picture depends on neither threads, tiles nor passes. `stop` ends the render
 /// at the next tile; `watch` is told after each tile, from any thread.
@@ -98,116 +96,73 @@ pub fn render(
     plan: &RenderPlan,
     options: &RenderOptions,
     stop: &AtomicBool,
-    watch: &(dyn Fn(Progress) + Sync),
+    watch: Watch<'_>,
 ) -> Result<(Film, RenderStats), RenderError> {
-    let start = Instant::now();
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(options.threads)
-        .build()
-        .map_err(|e| RenderError::Threads { threads: options.threads, reason: e.to_string() })?;
+    if plan.integrator.mis == Mis::Optimal {
+        return observed(scene, plan, options, stop, watch, &Learning::new(plan.size()));
+    }
+    observed(scene, plan, options, stop, watch, &())
+}
+
+/// [`render()`], to the same bits, with the light of each sampling technique apart. [`Mis::Optimal`] counts as balance here.
+///
+/// # Errors
+/// Where threads cannot be started.
+pub fn render_strategies(
+    scene: &Scene,
+    plan: &RenderPlan,
+    options: &RenderOptions,
+    stop: &AtomicBool,
+    watch: Watch<'_>,
+) -> Result<(Film, Strategies, RenderStats), RenderError> {
+    let sorting = Sorting::new(plan.size(), plan.integrator.mis);
+    let (film, stats) = observed(scene, plan, options, stop, watch, &sorting)?;
+    Ok((film, sorting.into_films(), stats))
+}
+
+fn observed<O: Observer>(
+    scene: &Scene,
+    plan: &RenderPlan,
+    options: &RenderOptions,
+    stop: &AtomicBool,
+    watch: Watch<'_>,
+    observer: &O,
+) -> Result<(Film, RenderStats), RenderError> {
+    let run = Run::new(scene, plan, options, stop, watch)?;
     let [width, height] = plan.size();
-    let film = Film::new(width, height, options.variance);
-    let shared = Shared {
-        scene,
-        plan,
-        film: Mutex::new(film),
-        rays: Mutex::default(),
-        samples: AtomicU64::new(0),
-        rays_so_far: AtomicU64::new(0),
-        stop,
-        deadline: options.time_limit.map(|t| start + t),
-    };
-    let origins: Vec<[u32; 2]> = (0..height.div_ceil(TILE))
-        .flat_map(|y| (0..width.div_ceil(TILE)).map(move |x| [x * TILE, y * TILE]))
-        .collect();
-    let samples_of = |per_pixel: u32| u64::from(width) * u64::from(height) * u64::from(per_pixel);
-    let total = samples_of(plan.samples_per_pixel);
+    let mut film = Film::new(width, height, options.variance);
+    let origins = run.origins();
+    let total = u64::from(width) * u64::from(height) * u64::from(plan.samples_per_pixel);
+    run.expect(total);
     let mut done = 0;
     let mut pass = 1;
-    while done < plan.samples_per_pixel && !shared.ended() {
+    while done < plan.samples_per_pixel && !run.ended() {
         let n = pass.min(plan.samples_per_pixel - done);
-        pool.install(|| {
-            origins.par_iter().try_for_each(|&origin| {
-                shared.tile(origin, done..done + n, |rays, samples| {
-                    watch(Progress { samples, samples_total: total, rays, elapsed: start.elapsed() });
-                })
-            })
-        })?;
-        if shared.samples.load(Ordering::Relaxed) < samples_of(done + n) {
+        let own = if O::LEARNS { points_of_pass(&plan.sampler, done, n) } else { None };
+        let (sampler, samples) = own.as_ref().map_or((&plan.sampler, done..done + n), |s| (s, 0..n));
+        let exposure = Exposure::observed(sampler, film, observer);
+        let job = |&origin| Job { exposure: &exposure, origin, samples: samples.clone() };
+        let whole = run.pass(&origins.iter().map(job).collect::<Vec<Job<'_, O>>>())?;
+        film = exposure.into_film();
+        if !whole {
             break; // It was stopped within the pass.
         }
         done += n;
         pass = (2 * pass).min(MAX_PASS);
     }
-    let rays = *lock(&shared.rays);
-    let samples = shared.samples.load(Ordering::Relaxed);
-    let film = shared.film.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
+    let stats = run.stats();
     let stats = RenderStats {
-        rays,
-        samples,
         samples_per_pixel: done,
-        stopped: samples < total,
+        stopped: stats.samples < total,
         rejected: film.rejected(),
-        elapsed: start.elapsed(),
+        ..stats
     };
     Ok((film, stats))
 }
 
-/// A thread that died held no half-made sums: tiles are absorbed whole.
-fn lock<T>(m: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
-    m.lock().unwrap_or_else(std::sync::PoisonError::into_inner)
-}
-
-impl Shared<'_> {
-    fn ended(&self) -> bool {
-        self.stop.load(Ordering::Relaxed) || self.deadline.is_some_and(|d| Instant::now() >= d)
-    }
-
-    /// Renders some samples of one tile, unless the render is to stop.
-    fn tile(
-        &self,
-        origin: [u32; 2],
-        samples: std::ops::Range<u32>,
-        watch: impl Fn(u64, u64),
-    ) -> Result<(), RenderError> {
-        if self.ended() {
-            return Ok(());
-        }
-        let mut tile = lock(&self.film).tile(origin, [TILE, TILE]);
-        let mut rays = RayCounts::default();
-        let [w, h] = tile.size();
-        for y in origin[1]..origin[1] + h {
-            for x in origin[0]..origin[0] + w {
-                for sample in samples.clone() {
-                    self.sample([x, y], sample, &mut tile, &mut rays);
-                }
-            }
-        }
-        lock(&self.film).absorb(&tile)?;
-        *lock(&self.rays) += rays;
-        let n = u64::from(w) * u64::from(h) * u64::from(samples.end - samples.start);
-        let n_samples = self.samples.fetch_add(n, Ordering::Relaxed) + n;
-        let n_rays = self.rays_so_far.fetch_add(rays.total(), Ordering::Relaxed) + rays.total();
-        watch(n_rays, n_samples);
-        Ok(())
-    }
-
-    /// One camera sample: wavelengths, time, place on film and lens, radiance, film.
-    #[inline]
-    fn sample(&self, pixel: [u32; 2], sample: u32, tile: &mut FilmTile, rays: &mut RayCounts) {
-        let plan = self.plan;
-        let [x, y] = [pixel[0] + plan.bounds[0], pixel[1] + plan.bounds[2]];
-        let mut sampler = plan.sampler.start([x, y], sample);
-        let mut lambda = Wavelengths::sample_visible(sampler.get_1d());
-        let time = if self.scene.moves { self.scene.camera.time(sampler.get_1d()) } else { 0.0 };
-        let f = plan.filter.sample(sampler.get_pixel_2d());
-        sampler.set_dimension(2);
-        let lens = sampler.get_2d();
-        let film = [x as f32 + 0.5 + f.offset[0], y as f32 + 0.5 + f.offset[1]];
-        let ray = self.scene.camera.ray(film, lens, time);
-        let l = plan.integrator.radiance(self.scene, ray, &mut lambda, &mut sampler, rays);
-        rays.camera += 1;
-        rays.scattered -= 1;
-        tile.add(pixel[0], pixel[1], plan.sensor.rgb(l, &lambda), f.weight);
-    }
+/// Points of one pass, independent of those of all others; none where there is one set of points only.
+fn points_of_pass(sampler: &Sampler, done: u32, n: u32) -> Option<Sampler> {
+    let config = sampler.config();
+    let seed = config.seed ^ u64::from(done).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    config.is_random().then(|| Sampler::new(&SamplerConfig { seed, samples_per_pixel: n, ..*config }))
 }

@@ -90,7 +90,8 @@ impl Scene {
 
     /// Light that a ray found: from the surface `hit`, or from all around where it left the scene.
     ///
-    /// Each light is weighted against the chance that light sampling at `last` would have found it.
+    /// Each light is weighted against the chance that light sampling at `last` would have found it; `found` is told what it
+    /// sends and the weight, but of no light that this ray does not look for.
     pub fn emitted(
         &self,
         ray: &Ray,
@@ -98,17 +99,23 @@ impl Scene {
         last: Option<&LastVertex>,
         mis: Mis,
         w: &Wavelengths,
+        mut found: impl FnMut(Spectrum<f32>, f32),
     ) -> Spectrum<f32> {
-        let weight = |light: u32, pdf: &dyn Fn(&LitPoint) -> f32| {
-            last.map_or(1.0, |v| {
-                let p_light = || self.lights.probability(&v.at, light) * pdf(&v.at);
-                if v.pdf > 0.0 { mis.bsdf_weight(v.pdf, p_light()) } else { 0.0 }
-            })
+        let mut weighted = |l: Spectrum<f32>, light: u32, pdf: &dyn Fn(&LitPoint) -> f32| {
+            let weight = match last {
+                None => 1.0,
+                Some(v) if v.pdf > 0.0 => {
+                    mis.bsdf_weight(v.pdf, self.lights.probability(&v.at, light) * pdf(&v.at))
+                }
+                Some(_) => return Spectrum::ZERO,
+            };
+            found(l, weight);
+            l * weight
         };
         let Some(point) = hit else {
             return self.lights.infinite().iter().fold(Spectrum::ZERO, |sum, &light| {
                 let (l, pdf) = self.lights.escaped(light, ray.d, w);
-                sum + l * weight(light, &|_| pdf)
+                sum + weighted(l, light, &|_| pdf)
             });
         };
         let Some(light) = self.lights.of_primitive(point.shape, point.prim) else { return Spectrum::ZERO };
@@ -116,7 +123,7 @@ impl Scene {
         if l.is_black() {
             return l;
         }
-        l * weight(light, &|at| self.lights.pdf_of_point(&self.geometry, at, ray.d, point))
+        weighted(l, light, &|at| self.lights.pdf_of_point(&self.geometry, at, ray.d, point))
     }
 
     /// The reflection model at a point, turned to the world; none where rays pass unchanged.

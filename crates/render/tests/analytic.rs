@@ -20,9 +20,17 @@ fn check(what: &str, text: &str, want: [f64; 3], tolerance: f64) {
 #[test]
 fn inside_a_closed_diffuse_sphere_light_multiplies() {
     // Emission L and reflectance r everywhere: L (1 + r + r^2 + ...) = L / (1 - r) in every direction.
-    for mis in
-        ["balance", "power", "cutoff:0.2", "maximum", "average", "one-sample", "light-only", "bsdf-only"]
-    {
+    for mis in [
+        "balance",
+        "power",
+        "cutoff:0.2",
+        "maximum",
+        "average",
+        "optimal",
+        "one-sample",
+        "light-only",
+        "bsdf-only",
+    ] {
         let text = format!(
             r#"{FILM} Sampler "zsobol" "integer pixelsamples" 64
             Integrator "path" "integer maxdepth" 60 "string mis" "{mis}"
@@ -142,9 +150,17 @@ fn area_lights_on_a_floor_for_each_heuristic_and_shape() {
     let (sa, sb) = ((1.0 + a * a).sqrt(), (1.0 + b * b).sqrt());
     let quarter = (a / sa * libm_atan(b / sa) + b / sb * libm_atan(a / sb)) / (2.0 * pi);
     let e_square = pi * 5.0 * 4.0 * quarter;
-    for mis in
-        ["balance", "power", "cutoff:0.2", "maximum", "average", "one-sample", "light-only", "bsdf-only"]
-    {
+    for mis in [
+        "balance",
+        "power",
+        "cutoff:0.2",
+        "maximum",
+        "average",
+        "optimal",
+        "one-sample",
+        "light-only",
+        "bsdf-only",
+    ] {
         check(&format!("disk {mis}"), &disk(mis), [e_disk * HALF_OVER_PI; 3], 0.004);
         check(&format!("sphere {mis}"), &sphere(mis), [e_sphere * HALF_OVER_PI; 3], 0.004);
         check(&format!("square {mis}"), &square(mis), [e_square * HALF_OVER_PI; 3], 0.004);

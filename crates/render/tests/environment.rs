@@ -45,9 +45,17 @@ fn floor_under(map: &std::path::Path, extra: &str) -> String {
 
 /// Checks the mean of the picture for every technique; `known` is the radiance of the floor.
 fn check(map: &std::path::Path, known: f64) {
-    for mis in
-        ["balance", "power", "cutoff:0.2", "maximum", "average", "one-sample", "light-only", "bsdf-only"]
-    {
+    for mis in [
+        "balance",
+        "power",
+        "cutoff:0.2",
+        "maximum",
+        "average",
+        "optimal",
+        "one-sample",
+        "light-only",
+        "bsdf-only",
+    ] {
         for compensation in ["true", "false"] {
             let extra = format!(r#""string mis" "{mis}" "bool miscompensation" {compensation}"#);
             let (film, _) = picture_of(describe(&floor_under(map, &extra)), 1);

@@ -11,6 +11,7 @@
 //! | are viewer and light exchangeable? | [`reciprocity`] |
 //! | is a sample's weight value over density? | [`consistency`] |
 //! | how uneven are weights? | [`Weights`] |
+//! | how sure is a mean of few numbers? do two differ? | [`mean_interval`], [`welch_p`] |
 //! | are two pictures the same but for noise? | [`images_z_test`] |
 
 mod chi_square;
@@ -21,6 +22,7 @@ mod mean;
 mod partition;
 mod random;
 pub mod special;
+mod student;
 mod weights;
 
 pub use chi_square::{Cell, ChiSquare, bonferroni, chi_square, sidak, sidak_p};
@@ -29,4 +31,5 @@ pub use images::{ZTest, images_z_test};
 pub use mean::{Mean, albedo};
 pub use partition::{Integral, Partition, integrate_sphere};
 pub use random::Random;
+pub use student::{mean_interval, student_quantile, student_tails, welch_p};
 pub use weights::Weights;

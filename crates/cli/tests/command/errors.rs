@@ -25,7 +25,14 @@ fn a_wrong_command_line_ends_with_2() {
         "render room.pbrt --crop 0,1,0",
         "render room.pbrt --resolution 64",
         "render room.pbrt --time -1",
+        "render room.pbrt --noise 0",
+        "render room.pbrt --noise=-0.1",
+        "render room.pbrt --noise nan",
+        "render room.pbrt --noise 0.1 --spp 7",
         "render room.pbrt -o picture.jpg",
+        "render room.pbrt --mis optimal --strategies parts",
+        "render room.pbrt --mis optimal --noise 0.1",
+        "render room.pbrt --strategies parts --noise 0.1",
         "render room.pbrt -o a.exr --stats a.png",
         "info",
     ];
@@ -45,9 +52,9 @@ fn help_and_version_are_no_errors() {
     assert!(s.run("--version").ok().out.starts_with("sparrow "));
     let help = s.run("render --help").ok().out;
     let options = help.lines().filter(|l| l.trim_start().starts_with("--") || l.contains("-o, --"));
-    assert_eq!(options.count(), 18, "{help}");
+    assert_eq!(options.count(), 20, "{help}");
     // Help, version and the scene have no default.
-    assert_eq!(help.matches("[default:").count(), 18, "every option says its default: {help}");
+    assert_eq!(help.matches("[default:").count(), 20, "every option says its default: {help}");
     assert!(s.run("").out.contains("Usage: sparrow"));
 }
 

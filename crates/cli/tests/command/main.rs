@@ -10,5 +10,7 @@ mod info;
 mod interrupts;
 mod models;
 mod plot;
+mod race;
 mod render;
 mod scratch;
+mod strategies;

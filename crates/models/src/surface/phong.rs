@@ -53,7 +53,7 @@ impl<R: Real> Model<R> for Phong<R> {
         ParamInfo::albedo("specular").default(0.3).doc("Strength of the lobe, ks."),
         ParamInfo::real("exponent")
             .default(20.0)
-            .range(0.0, 1e4)
+            .range(0.0, 2e4)
             .soft(1.0, 100.0)
             .doc("Power n of the cosine: large for narrow lobes."),
         ParamInfo::choice("form", &["modified", "normalized", "phong"]).doc(

@@ -21,6 +21,7 @@
 
 mod error;
 mod fixed;
+mod halves;
 mod pixels;
 #[cfg(test)]
 #[expect(clippy::float_cmp, reason = "exactness is what is tested")]
@@ -28,5 +29,6 @@ mod tests;
 mod tile;
 
 pub use error::FilmError;
+pub use halves::{Halves, Picture};
 pub use pixels::{Film, PixelView, RawPixel, RawSquares};
 pub use tile::FilmTile;

@@ -1,8 +1,10 @@
 //! Integrators: radiance along a camera ray.
 
 mod path;
+mod record;
 
 pub use path::PathIntegrator;
+pub use record::{Finder, Record};
 
 /// Rays traced, by kind.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

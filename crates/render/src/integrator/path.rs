@@ -6,7 +6,7 @@ use sparrow_mis::Mis;
 use sparrow_scene::{IntegratorDesc, IntegratorName};
 use sparrow_spectra::{Spectrum, Wavelengths};
 
-use super::RayCounts;
+use super::{Finder, RayCounts, Record};
 use crate::light::LitPoint;
 use crate::sampler::PixelSampler;
 use crate::scatter::{Density, Scatter};
@@ -50,7 +50,7 @@ impl PathIntegrator {
         }
     }
 
-    /// Radiance that arrives along `ray`, at the path's wavelengths.
+    /// Radiance that arrives along `ray`, at the path's wavelengths; `record` is told of each light that is found.
     pub fn radiance(
         &self,
         scene: &Scene,
@@ -58,14 +58,17 @@ impl PathIntegrator {
         lambda: &mut Wavelengths,
         sampler: &mut PixelSampler<'_>,
         rays: &mut RayCounts,
+        record: &mut impl Record,
     ) -> Spectrum<f32> {
         let (mut l, mut beta) = (Spectrum::ZERO, Spectrum::ONE);
         let mut last: Option<LastVertex> = None;
-        let (mut depth, mut n_smooth, mut eta_scale) = (0, 0, 1.0);
+        let (mut depth, mut n_smooth, mut eta_scale) = (0u32, 0, 1.0);
         loop {
             let hit = scene.intersect(&ray);
             rays.scattered += 1;
-            l += beta * scene.emitted(&ray, hit.as_ref(), last.as_ref(), self.mis, lambda);
+            let by = depth.checked_sub(1).map_or(Finder::Camera, Finder::Bsdf);
+            let found = |light, w| record.found(by, beta * light, w);
+            l += beta * scene.emitted(&ray, hit.as_ref(), last.as_ref(), self.mis, lambda, found);
 
             let Some(point) = hit else { break };
             if depth == self.max_depth || n_smooth == self.max_smooth {
@@ -84,7 +87,8 @@ impl PathIntegrator {
             sampler.set_dimension(FIRST_BOUNCE + depth * PER_BOUNCE);
             let turn = self.mis.turn(sampler.get_1d());
             if turn.light && bsdf.has_smooth_lobe() {
-                l += beta * self.direct(scene, &point, &bsdf, wo, lambda, turn.u, sampler, rays);
+                let found = |light, w| record.found(Finder::Light(depth), beta * light, w);
+                l += beta * self.direct(scene, &point, &bsdf, wo, lambda, turn.u, sampler, rays, found);
             }
 
             // Next vertex.
@@ -116,7 +120,7 @@ impl PathIntegrator {
         l
     }
 
-    /// Light from one sampled light, scattered into `wo`.
+    /// Light from one sampled light, scattered into `wo`; `found` is told what it is before its weight, and that weight.
     #[allow(clippy::too_many_arguments, reason = "the state of one path vertex")]
     #[inline]
     fn direct(
@@ -129,6 +133,7 @@ impl PathIntegrator {
         choice: f32,
         sampler: &mut PixelSampler<'_>,
         rays: &mut RayCounts,
+        found: impl FnOnce(Spectrum<f32>, f32),
     ) -> Spectrum<f32> {
         let at = LitPoint { p: point.p, n: point.ns };
         let Some(light) = scene.sample_light(&at, choice, sampler.get_2d(), lambda) else {
@@ -143,6 +148,7 @@ impl PathIntegrator {
             return Spectrum::ZERO;
         }
         let w = if light.delta { 1.0 } else { self.mis.light_weight(light.pdf, pdf) };
+        found(f_cos * light.radiance * (1.0 / light.pdf), w);
         f_cos * light.radiance * (w / light.pdf)
     }
 }

@@ -62,3 +62,11 @@ pub struct SamplerConfig {
     /// Width and height of the full image (not of a crop window), in pixels.
     pub resolution: [u32; 2],
 }
+
+impl SamplerConfig {
+    /// Whether another seed gives other points.
+    pub fn is_random(&self) -> bool {
+        matches!(self.kind, SamplerKind::Independent | SamplerKind::Stratified { .. })
+            || self.randomize != Randomize::None
+    }
+}

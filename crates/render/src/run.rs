@@ -1,0 +1,209 @@
+//! A render under way: tiles over threads, until the work is done or it is told to stop.
+
+use std::ops::Range;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::time::Instant;
+
+use rayon::prelude::*;
+use sparrow_spectra::Wavelengths;
+
+use crate::film::{Film, FilmTile};
+use crate::integrator::RayCounts;
+use crate::observe::{Observer, Sample, TileObserver};
+use crate::plan::RenderPlan;
+use crate::render::{Progress, RenderError, RenderOptions, RenderStats};
+use crate::sampler::Sampler;
+use crate::scene::Scene;
+
+/// Pixels along the side of a tile.
+pub(crate) const TILE: u32 = 16;
+
+/// A film with the points that fill it, and who looks on.
+pub(crate) struct Exposure<'a, O = ()> {
+    pub(crate) sampler: &'a Sampler,
+    film: Mutex<Film>,
+    observer: &'a O,
+}
+
+impl<'a> Exposure<'a> {
+    pub(crate) fn new(sampler: &'a Sampler, film: Film) -> Exposure<'a> {
+        Exposure::observed(sampler, film, &())
+    }
+}
+
+impl<'a, O> Exposure<'a, O> {
+    pub(crate) fn observed(sampler: &'a Sampler, film: Film, observer: &'a O) -> Exposure<'a, O> {
+        Exposure { sampler, film: Mutex::new(film), observer }
+    }
+    /// Looks at the film between passes.
+    pub(crate) fn film(&self) -> std::sync::MutexGuard<'_, Film> {
+        lock(&self.film)
+    }
+    pub(crate) fn into_film(self) -> Film {
+        self.film.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner)
+    }
+}
+
+/// Some samples of every pixel of one tile.
+pub(crate) struct Job<'a, O = ()> {
+    pub(crate) exposure: &'a Exposure<'a, O>,
+    pub(crate) origin: [u32; 2],
+    pub(crate) samples: Range<u32>,
+}
+
+/// State that all threads share.
+pub(crate) struct Run<'a> {
+    scene: &'a Scene,
+    plan: &'a RenderPlan,
+    stop: &'a AtomicBool,
+    watch: &'a (dyn Fn(Progress) + Sync),
+    start: Instant,
+    deadline: Option<Instant>,
+    pool: rayon::ThreadPool,
+    rays: Mutex<RayCounts>,
+    samples: AtomicU64,
+    samples_total: AtomicU64,
+    rays_so_far: AtomicU64,
+}
+
+impl<'a> Run<'a> {
+    /// # Errors
+    /// Where threads cannot be started.
+    pub(crate) fn new(
+        scene: &'a Scene,
+        plan: &'a RenderPlan,
+        options: &RenderOptions,
+        stop: &'a AtomicBool,
+        watch: &'a (dyn Fn(Progress) + Sync),
+    ) -> Result<Run<'a>, RenderError> {
+        let start = Instant::now();
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(options.threads)
+            .build()
+            .map_err(|e| RenderError::Threads { threads: options.threads, reason: e.to_string() })?;
+        Ok(Run {
+            scene,
+            plan,
+            stop,
+            watch,
+            start,
+            deadline: options.time_limit.map(|t| start + t),
+            pool,
+            rays: Mutex::default(),
+            samples: AtomicU64::new(0),
+            samples_total: AtomicU64::new(0),
+            rays_so_far: AtomicU64::new(0),
+        })
+    }
+
+    /// First pixels of all tiles, row by row.
+    pub(crate) fn origins(&self) -> Vec<[u32; 2]> {
+        let [width, height] = self.plan.size();
+        (0..height.div_ceil(TILE))
+            .flat_map(|y| (0..width.div_ceil(TILE)).map(move |x| [x * TILE, y * TILE]))
+            .collect()
+    }
+
+    pub(crate) fn ended(&self) -> bool {
+        self.stop.load(Ordering::Relaxed) || self.deadline.is_some_and(|d| Instant::now() >= d)
+    }
+
+    /// Camera samples taken.
+    pub(crate) fn samples(&self) -> u64 {
+        self.samples.load(Ordering::Relaxed)
+    }
+
+    /// Tells those who watch how many camera samples there will be.
+    pub(crate) fn expect(&self, samples_total: u64) {
+        self.samples_total.store(samples_total, Ordering::Relaxed);
+    }
+
+    /// Works off all jobs; false where the render was stopped within them.
+    pub(crate) fn pass<O: Observer>(&self, jobs: &[Job<'_, O>]) -> Result<bool, RenderError> {
+        let whole = AtomicBool::new(true);
+        self.pool.install(|| {
+            jobs.par_iter().try_for_each(|job| {
+                if self.ended() {
+                    whole.store(false, Ordering::Relaxed);
+                    return Ok(());
+                }
+                self.tile(job)
+            })
+        })?;
+        Ok(whole.into_inner())
+    }
+
+    /// What was done up to now.
+    pub(crate) fn stats(&self) -> RenderStats {
+        RenderStats {
+            rays: *lock(&self.rays),
+            samples: self.samples(),
+            elapsed: self.start.elapsed(),
+            ..RenderStats::default()
+        }
+    }
+
+    fn tile<O: Observer>(&self, job: &Job<'_, O>) -> Result<(), RenderError> {
+        let Job { exposure, origin, samples } = job;
+        let mut tile = exposure.film().tile(*origin, [TILE, TILE]);
+        let mut observer = exposure.observer.tile(*origin, [TILE, TILE]);
+        let mut rays = RayCounts::default();
+        let [w, h] = tile.size();
+        for y in origin[1]..origin[1] + h {
+            for x in origin[0]..origin[0] + w {
+                for sample in samples.clone() {
+                    self.sample(exposure.sampler, [x, y], sample, &mut tile, &mut observer, &mut rays);
+                }
+            }
+        }
+        exposure.film().absorb(&tile)?;
+        exposure.observer.absorb(&observer)?;
+        *lock(&self.rays) += rays;
+        let n = u64::from(w) * u64::from(h) * u64::from(samples.end - samples.start);
+        let n_samples = self.samples.fetch_add(n, Ordering::Relaxed) + n;
+        let n_rays = self.rays_so_far.fetch_add(rays.total(), Ordering::Relaxed) + rays.total();
+        (self.watch)(Progress {
+            samples: n_samples,
+            samples_total: self.samples_total.load(Ordering::Relaxed),
+            rays: n_rays,
+            elapsed: self.start.elapsed(),
+        });
+        Ok(())
+    }
+
+    /// One camera sample: wavelengths, time, place on film and lens, radiance, film.
+    #[inline]
+    fn sample<T: TileObserver>(
+        &self,
+        sampler: &Sampler,
+        pixel: [u32; 2],
+        sample: u32,
+        tile: &mut FilmTile,
+        observer: &mut T,
+        rays: &mut RayCounts,
+    ) {
+        let plan = self.plan;
+        let [x, y] = [pixel[0] + plan.bounds[0], pixel[1] + plan.bounds[2]];
+        let mut sampler = sampler.start([x, y], sample);
+        let mut lambda = Wavelengths::sample_visible(sampler.get_1d());
+        let time = if self.scene.moves { self.scene.camera.time(sampler.get_1d()) } else { 0.0 };
+        let f = plan.filter.sample(sampler.get_pixel_2d());
+        sampler.set_dimension(2);
+        let lens = sampler.get_2d();
+        let film = [x as f32 + 0.5 + f.offset[0], y as f32 + 0.5 + f.offset[1]];
+        let ray = self.scene.camera.ray(film, lens, time);
+        let mut record = T::Record::default();
+        let l = plan.integrator.radiance(self.scene, ray, &mut lambda, &mut sampler, rays, &mut record);
+        rays.camera += 1;
+        rays.scattered -= 1;
+        let sample = Sample { pixel, rgb: plan.sensor.rgb(l, &lambda), weight: f.weight };
+        let rgb = observer.take(sample, &record, |part| plan.sensor.rgb(part, &lambda));
+        tile.add(pixel[0], pixel[1], rgb, f.weight);
+    }
+}
+
+/// A thread that died held no half-made sums: tiles are absorbed whole.
+fn lock<T>(m: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
+    m.lock().unwrap_or_else(std::sync::PoisonError::into_inner)
+}
