@@ -4,10 +4,12 @@ use crate::registry::models;
 
 mod banks_fibre;
 mod deon;
+mod elliptical_hair;
 mod hair;
 mod kajiya_kay;
 mod lambert_fibre;
 mod marschner;
+mod microfacet_hair;
 mod mirror_cylinder;
 mod zinke_weber;
 
@@ -21,6 +23,8 @@ models! {
         Marschner = marschner::Marschner, "marschner";
         ZinkeWeber = zinke_weber::ZinkeWeber, "zinke_weber";
         DEon = deon::DEon, "deon";
+        EllipticalHair = elliptical_hair::EllipticalHair, "elliptical_hair";
+        MicrofacetHair = microfacet_hair::MicrofacetHair, "microfacet_hair";
         Hair = hair::Hair, "hair";
     }
 }

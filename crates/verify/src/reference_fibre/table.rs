@@ -122,13 +122,17 @@ fn widths(beta: f64) -> [f64; 2] {
     [variance(beta).sqrt(), logistic_scale(beta) * core::f64::consts::PI / 3.0_f64.sqrt()]
 }
 
-/// The fibre of the table: a mirror turns light by twice the slope, and slopes of GGX facets count as Gaussian, so that their widths
-/// are `alpha = std / sqrt(2)`.
+/// Slope widths of its facets along and around the fibre: a mirror turns light by twice the slope, and slopes of GGX facets count as
+/// Gaussian, so that `alpha = std / sqrt(2)`.
+fn facets(beta: f64) -> [f64; 2] {
+    widths(beta).map(|std| std * core::f64::consts::FRAC_1_SQRT_2)
+}
+
+/// The fibre of the table.
 fn fibre(beta: f64) -> ReferenceFibre {
-    let alpha = widths(beta).map(|std| std * core::f64::consts::FRAC_1_SQRT_2);
     ReferenceFibre {
         section: Section::CIRCLE,
-        surface: Surface { alpha, eta: ETA },
+        surface: Surface { alpha: facets(beta), eta: ETA },
         tilt: 0.0,
         sigma_a: SIGMAS,
         core: None,
@@ -137,10 +141,15 @@ fn fibre(beta: f64) -> ReferenceFibre {
 
 /// A model with the parameters that mean the fibre of the table; none for models that tell no lobes apart.
 fn like(kind: FibreKind, beta: f64, h: f64) -> Option<Fibre<f64>> {
+    let [alpha_m, alpha_n] = facets(beta);
     let [along, around] = widths(beta).map(f64::to_degrees);
     let reals: &[(&str, f64)] = match kind {
         FibreKind::Hair => &[("beta_m", beta), ("beta_n", beta), ("alpha", 0.0)],
         FibreKind::ZinkeWeber | FibreKind::DEon => &[("width_m", along), ("width_n", around), ("alpha", 0.0)],
+        FibreKind::EllipticalHair => {
+            &[("width_m", along), ("width_n", around), ("alpha", 0.0), ("aspect", 1.0)]
+        }
+        FibreKind::MicrofacetHair => &[("alpha_m", alpha_m), ("alpha_n", alpha_n), ("tilt", 0.0)],
         // His width is told in the half angle.
         FibreKind::Marschner => &[("beta_r", 0.5 * along), ("alpha_r", 0.0)],
         FibreKind::KajiyaKay
