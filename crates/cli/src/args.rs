@@ -7,6 +7,8 @@ use clap::builder::{PathBufValueParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use sparrow_mis::Mis;
 
+use crate::compare_cmd::CompareArgs;
+use crate::groom_cmd::GroomArgs;
 use crate::plot_cmd::PlotArgs;
 
 /// Most samples per pixel: beyond it the film's sums could saturate.
@@ -15,10 +17,9 @@ pub(crate) const MAX_SPP: u32 = 1 << 22;
 /// Spectral path tracer and laboratory for reflection models
 #[derive(Debug, Parser)]
 #[command(name = "sparrow", version, propagate_version = true, max_term_width = 100)]
-#[command(
-    after_help = "Exit codes: 0 done; 1 the input was wrong, or a model failed; 2 the command line was wrong; \
-                        130 interrupted, what was rendered so far is saved."
-)]
+#[command(after_help = "Exit codes: 0 done; 1 the input was wrong, a model failed, or a threshold was \
+                        exceeded; 2 the command line was wrong; \
+                        130 interrupted, what was rendered so far is saved.")]
 pub(crate) struct Cli {
     #[command(subcommand)]
     pub(crate) verb: Option<Verb>,
@@ -29,9 +30,11 @@ pub(crate) struct Cli {
 pub(crate) enum Verb {
     Render(Box<RenderArgs>),
     Info(InfoArgs),
+    Compare(CompareArgs),
     Plot(Box<PlotArgs>),
     Models(ModelsArgs),
     Verify(VerifyArgs),
+    Groom(Box<GroomArgs>),
 }
 
 /// Render a scene to OpenEXR, with an sRGB PNG beside it

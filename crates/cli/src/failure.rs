@@ -93,6 +93,10 @@ impl Failure {
     pub(crate) fn usages(errors: Vec<Remark>) -> Failure {
         Failure { code: USAGE, errors, warnings: Vec::new(), told: true }
     }
+    /// Several things of the user's input were wrong.
+    pub(crate) fn inputs(errors: Vec<Remark>) -> Failure {
+        Failure { code: INPUT, errors, warnings: Vec::new(), told: true }
+    }
     /// It ended before anything was there to be saved.
     pub(crate) fn interrupted(message: &str) -> Failure {
         Failure::plain(INTERRUPTED, message)

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use crate::args::InfoArgs;
 use crate::console;
 use crate::failure::{DONE, Failure};
-use crate::inventory::{Counts, Inventory, Lights, Material, Shapes};
+use crate::inventory::{Counts, Instances, Inventory, Lights, Material, Shapes};
 use crate::report::bytes;
 
 /// Reads a scene and tells what is in it.
@@ -36,6 +36,7 @@ fn text(info: &Inventory) -> String {
     };
     line("scene", info.scene.clone());
     line("shapes", shapes(&info.shapes));
+    line("instances", instances(&info.instances));
     line("geometry", format!("about {}", bytes(info.geometry_bytes_estimate)));
     info.materials.iter().for_each(|m| line("material", material(m)));
     line("lights", lights(&info.lights));
@@ -108,6 +109,13 @@ fn shapes(s: &Shapes) -> String {
         let _ = write!(text, "; {} with a cut-out", s.with_alpha);
     }
     text
+}
+
+fn instances(i: &Instances) -> String {
+    if i.prototypes == 0 {
+        return String::new();
+    }
+    format!("{} of {} with {}", i.total, plural(i.prototypes, "object"), plural(i.shapes, "shape"))
 }
 
 fn material(m: &Material) -> String {

@@ -14,6 +14,8 @@ use crate::{images, names};
 
 /// Bytes of the hierarchy for each primitive, measured on our own scenes.
 const HIERARCHY_BYTES: u64 = 60;
+/// Bytes of an instance with its place in the hierarchy, measured likewise.
+const INSTANCE_BYTES: u64 = 101;
 /// Bytes of the hierarchy for each segment of a curve, or part of one, measured likewise.
 const CURVE_HIERARCHY_BYTES: u64 = 43;
 /// Bytes of a sphere, disk or cylinder with its place in the hierarchy, measured likewise.
@@ -30,6 +32,7 @@ pub(crate) struct Inventory {
     pub(crate) version: &'static str,
     pub(crate) scene: String,
     pub(crate) shapes: Shapes,
+    pub(crate) instances: Instances,
     pub(crate) materials: Vec<Material>,
     pub(crate) lights: Lights,
     pub(crate) float_textures: Counts,
@@ -45,12 +48,21 @@ pub(crate) struct Inventory {
     pub(crate) warnings: Vec<Remark>,
 }
 
-/// Shapes, instances flattened.
+/// Objects, and how often they are placed.
+#[derive(Debug, Serialize)]
+pub(crate) struct Instances {
+    pub(crate) total: usize,
+    pub(crate) prototypes: usize,
+    /// Shapes of all prototypes, each counted once.
+    pub(crate) shapes: usize,
+}
+
+/// Shapes of the world and of prototypes, each counted once however often it is placed.
 #[derive(Debug, Default, Serialize)]
 pub(crate) struct Shapes {
     pub(crate) total: usize,
     pub(crate) meshes: usize,
-    /// Meshes that differ; the others are instances of them.
+    /// Meshes that differ; the others are the same files at other places.
     pub(crate) distinct_meshes: usize,
     pub(crate) triangles: usize,
     pub(crate) bilinear_patches: usize,
@@ -155,7 +167,8 @@ impl Inventory {
             exit_code: failure::DONE,
             version: env!("CARGO_PKG_VERSION"),
             scene: scene.display().to_string(),
-            shapes: Shapes::new(&desc.shapes),
+            shapes: Shapes::new(desc),
+            instances: Instances::new(desc),
             materials: materials(desc),
             lights: Lights::new(desc),
             float_textures: counted(desc.float_textures.iter().map(float_kind)),
@@ -177,7 +190,7 @@ impl Inventory {
                 light_sampler: names::light_sampler(desc.integrator.light_sampler),
                 regularize: desc.integrator.regularize,
             },
-            geometry_bytes_estimate: desc.shapes.iter().map(shape_bytes).sum(),
+            geometry_bytes_estimate: geometry_bytes(desc),
             files: desc.files.iter().map(|f| f.display().to_string()).collect(),
             statements,
             warnings: failure::warnings(&desc.warnings, &desc.files),
@@ -185,11 +198,27 @@ impl Inventory {
     }
 }
 
+/// Shapes of the world and of prototypes.
+fn all_shapes(desc: &SceneDesc) -> impl Iterator<Item = &ShapeDesc> {
+    desc.shapes.iter().chain(desc.prototypes.iter().flat_map(|p| &p.shapes))
+}
+
+impl Instances {
+    fn new(desc: &SceneDesc) -> Instances {
+        Instances {
+            total: desc.instances.len(),
+            prototypes: desc.prototypes.len(),
+            shapes: desc.prototypes.iter().map(|p| p.shapes.len()).sum(),
+        }
+    }
+}
+
 impl Shapes {
-    fn new(shapes: &[ShapeDesc]) -> Shapes {
-        let mut s = Shapes { total: shapes.len(), ..Shapes::default() };
+    fn new(desc: &SceneDesc) -> Shapes {
+        let mut s = Shapes::default();
         let mut distinct = HashSet::new();
-        for shape in shapes {
+        for shape in all_shapes(desc) {
+            s.total += 1;
             s.with_alpha += usize::from(shape.alpha.is_some());
             match &shape.kind {
                 ShapeKind::Mesh(mesh) => {
@@ -282,7 +311,7 @@ impl Film {
 /// Materials by type and model, in order of first occurrence, with the number of shapes.
 fn materials(desc: &SceneDesc) -> Vec<Material> {
     let mut uses = vec![0usize; desc.materials.len()];
-    for shape in &desc.shapes {
+    for shape in all_shapes(desc) {
         if let Some(n) = uses.get_mut(shape.material.0 as usize) {
             *n += 1;
         }
@@ -328,7 +357,15 @@ fn spectrum_kind(t: &SpectrumTexture) -> &'static str {
     }
 }
 
-/// Memory of a shape when it is rendered: every instance has its own copy, and its part of the hierarchy.
+/// Memory of all shapes and instances when they are rendered.
+fn geometry_bytes(desc: &SceneDesc) -> u64 {
+    let placed: HashSet<u32> = desc.instances.iter().map(|i| i.prototype.0).collect();
+    let prototypes = placed.iter().filter_map(|&i| desc.prototypes.get(i as usize));
+    let shapes = desc.shapes.iter().chain(prototypes.flat_map(|p| &p.shapes));
+    shapes.map(shape_bytes).sum::<u64>() + INSTANCE_BYTES * desc.instances.len() as u64
+}
+
+/// Memory of a shape when it is rendered, with its part of the hierarchy.
 fn shape_bytes(s: &ShapeDesc) -> u64 {
     match &s.kind {
         ShapeKind::Mesh(mesh) => {

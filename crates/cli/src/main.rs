@@ -3,14 +3,16 @@
 //! | code | means |
 //! | --- | --- |
 //! | 0 | done |
-//! | 1 | the user's input was wrong: a scene, a file, a folder; or a model did not stand its trial |
+//! | 1 | the user's input was wrong: a scene, a file, a folder; a model did not stand its trial; or two pictures differ more than they may |
 //! | 2 | the command line was wrong |
 //! | 130 | interrupted; what was rendered so far is saved |
 
 mod args;
+mod compare_cmd;
 mod console;
 mod failure;
 mod fibre_cmd;
+mod groom_cmd;
 mod images;
 mod info_cmd;
 mod interrupt;
@@ -43,9 +45,11 @@ fn main() -> ExitCode {
     let (json, quiet, done) = match &cli.verb {
         Some(Verb::Render(a)) => (a.json, a.quiet, render_cmd::run(a)),
         Some(Verb::Info(a)) => (a.json, false, info_cmd::run(a)),
+        Some(Verb::Compare(a)) => (a.json, a.quiet, compare_cmd::run(a)),
         Some(Verb::Plot(a)) => (a.json, a.quiet, plot_cmd::run(a)),
         Some(Verb::Models(a)) => (a.json, false, models_cmd::run(a)),
         Some(Verb::Verify(a)) => (a.json, false, verify_cmd::run(a)),
+        Some(Verb::Groom(a)) => (a.json, a.quiet, groom_cmd::run(a)),
         None => {
             // A broken pipe is no reason to complain about the help that nobody reads.
             let _ = Cli::command().print_help();

@@ -80,15 +80,19 @@ pub(crate) fn check_no_input<'a>(
     output: &Path,
     inputs: impl IntoIterator<Item = &'a Path>,
 ) -> Result<(), Failure> {
-    let Ok(output_file) = output.canonicalize() else { return Ok(()) };
-    let clash = inputs.into_iter().find(|i| i.canonicalize().is_ok_and(|i| i == output_file));
-    match clash {
-        Some(_) => Err(Failure::input(format!(
-            "{}: the scene itself reads this file; name another with -o",
-            output.display()
-        ))),
-        None => Ok(()),
+    if !is_one_of(output, inputs) {
+        return Ok(());
     }
+    Err(Failure::input(format!(
+        "{}: the scene itself reads this file; name another with -o",
+        output.display()
+    )))
+}
+
+/// `output` is there and is one of `inputs`, by whatever path.
+pub(crate) fn is_one_of<'a>(output: &Path, inputs: impl IntoIterator<Item = &'a Path>) -> bool {
+    let Ok(output) = output.canonicalize() else { return false };
+    inputs.into_iter().any(|i| i.canonicalize().is_ok_and(|i| i == output))
 }
 
 /// A device or a pipe, such as `/dev/null`: written to, never replaced.
@@ -101,20 +105,20 @@ fn folder_of(path: &Path) -> &Path {
     path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
-/// Writes a small file whole or not at all: under a temporary name, then renamed.
+/// Writes a file whole or not at all: under a temporary name, then renamed.
 ///
 /// # Errors
 /// Where the system refuses; then nothing is left behind.
-pub(crate) fn write_whole(path: &Path, text: &str) -> Result<(), Failure> {
+pub(crate) fn write_whole(path: &Path, bytes: impl AsRef<[u8]>) -> Result<(), Failure> {
     let mut name = std::ffi::OsString::from(".");
     name.push(path.file_name().unwrap_or_default());
     name.push(format!(".{}.tmp", process::id()));
     let temporary = path.with_file_name(name);
     let _files = interrupt::hold_files();
     let done = if is_special(path) {
-        fs::write(path, text)
+        fs::write(path, bytes)
     } else {
-        fs::write(&temporary, text).and_then(|()| fs::rename(&temporary, path))
+        fs::write(&temporary, bytes).and_then(|()| fs::rename(&temporary, path))
     };
     done.map_err(|e| {
         // The first error is the one worth telling.

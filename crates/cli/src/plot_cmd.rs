@@ -124,7 +124,7 @@ pub(crate) fn run(args: &PlotArgs) -> Result<u8, Failure> {
     if !args.csv {
         paths::write_whole(&svg, &figure.svg)?;
     }
-    paths::write_whole(&csv, &figure.table.csv())?;
+    paths::write_whole(&csv, figure.table.csv())?;
     if args.json {
         let outcome = Outcome {
             status: "done",

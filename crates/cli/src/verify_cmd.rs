@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use serde::Serialize;
 use sparrow_models::ModelKind;
-use sparrow_models::suggest::remedy;
+use sparrow_models::suggest::nearest;
 use sparrow_verify::{ColumnName, Options, Pins, Question, Report, Row, Subject, Verdict};
 
 use crate::args::VerifyArgs;
@@ -99,7 +99,10 @@ fn subjects(args: &VerifyArgs) -> Result<Vec<ModelKind>, Failure> {
 /// Where there is none.
 pub(crate) fn kind(name: &str) -> Result<ModelKind, Failure> {
     ModelKind::from_name(name).ok_or_else(|| {
-        let remedy = remedy(name, ModelKind::all().map(ModelKind::name));
+        let remedy = match nearest(name, ModelKind::all().map(ModelKind::name)) {
+            Some(near) => format!("did you mean \"{near}\"?"),
+            None => "`sparrow models` lists them".to_owned(),
+        };
         Failure::usage(format!("there is no model `{name}`; {remedy}"))
     })
 }

@@ -18,7 +18,7 @@ pub use bounds::Aabb;
 pub use frame::{Frame, LocalDir};
 pub use lanes::{LaneMask, Lanes};
 pub use real::{MAX_WIDTH, Mask, Real};
-pub use simd::{InLanes, in_lanes, one_by_one};
+pub use simd::{InLanes, in_lanes, only_in_lanes};
 pub use transform::Transform;
 pub use vec3::{Vec3, vec3};
 

@@ -25,9 +25,23 @@ pub fn in_lanes<W: InLanes>(work: W) -> W::Output {
     work.run::<crate::Lanes<8>>()
 }
 
-/// Runs `work` in `f32`: for what does not fill the lanes.
+/// [`in_lanes`] for work that has another way without lanes: gives it back where this processor has none.
+///
+/// Spares the copy of the work in `f32`, which takes as long to build as that in lanes.
+///
+/// # Errors
+/// The work, where there are no lanes.
+#[inline]
+pub fn only_in_lanes<W: InLanes>(work: W) -> Result<W::Output, W> {
+    #[cfg(target_arch = "x86_64")]
+    return if std::arch::is_x86_feature_detected!("avx2") { Ok(avx2::run(work)) } else { Err(work) };
+    #[cfg(not(target_arch = "x86_64"))]
+    Ok(work.run::<crate::Lanes<8>>())
+}
+
+/// Runs `work` in `f32`.
 #[inline(never)]
-pub fn one_by_one<W: InLanes>(work: W) -> W::Output {
+fn one_by_one<W: InLanes>(work: W) -> W::Output {
     work.run::<f32>()
 }
 

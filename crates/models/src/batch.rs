@@ -2,12 +2,12 @@
 //!
 //! The same text as for one ray, run as [`Lanes`] of eight inside a kernel that is compiled for the vector unit
 //! found at run time. With fused multiply-add off, which is the case here, the results equal those of `f32` bit for bit,
-//! on every machine. What does not fill eight lanes is computed one by one.
+//! on every machine. What does not fill eight lanes, and all where there are none, is computed one by one.
 
 use core::marker::PhantomData;
 use core::ops::Range;
 
-use sparrow_math::{InLanes, LocalDir, Real, in_lanes, one_by_one, vec3};
+use sparrow_math::{InLanes, LocalDir, Real, only_in_lanes, vec3};
 use sparrow_spectra::{N_LAMBDA, Spectrum};
 
 use crate::{
@@ -98,6 +98,10 @@ pub(crate) trait Family {
     fn f_cos_pdf<R: Real>(m: &Self::Of<R>, wo: LocalDir<R>, wi: LocalDir<R>) -> (Spectrum<R>, R);
     /// Draws a direction.
     fn sample<R: Real>(m: &Self::Of<R>, wo: LocalDir<R>, u: Uniforms<R>) -> BsdfSample<R>;
+    /// The first of one point, by way of the enum, whose code in `f32` is there in any case.
+    fn f_cos_pdf_alone(p: &ParamBlock<f32>, wo: LocalDir<f32>, wi: LocalDir<f32>) -> (Spectrum<f32>, f32);
+    /// The second of one point, likewise.
+    fn sample_alone(p: &ParamBlock<f32>, wo: LocalDir<f32>, u: Uniforms<f32>) -> BsdfSample<f32>;
 }
 
 #[inline(always)]
@@ -131,7 +135,7 @@ const fn counts(table: &[ParamInfo]) -> (usize, usize) {
 
 /// Reads the columns that the model's table names; others cost nothing.
 #[inline(always)]
-fn bind<R: Real, M: Model<R>>(p: &ParamColumns<'_>, i: usize) -> M {
+fn block<R: Real, M: Model<R>>(p: &ParamColumns<'_>, i: usize) -> ParamBlock<R> {
     let (reals, spectra) = const { counts(M::PARAMS) };
     let mut block = ParamBlock { choices: p.choices, h: value(p.h, i), ..ParamBlock::default() };
     for (slot, column) in block.reals.iter_mut().zip(&p.reals).take(reals) {
@@ -150,7 +154,12 @@ fn bind<R: Real, M: Model<R>>(p: &ParamColumns<'_>, i: usize) -> M {
             *slot = value(column, i);
         }
     }
-    M::new(&block)
+    block
+}
+
+#[inline(always)]
+fn uniforms<R: Real>(u: &[&[f32]; 3], i: usize) -> Uniforms<R> {
+    Uniforms { lobe: R::load(u[0], i), dir: [R::load(u[1], i), R::load(u[2], i)] }
 }
 
 #[inline(always)]
@@ -160,6 +169,28 @@ fn put<R: Real>(s: Spectrum<R>, columns: &mut [&mut [f32]; N_LAMBDA], i: usize) 
     s.0[1].store(b, i);
     s.0[2].store(c, i);
     s.0[3].store(d, i);
+}
+
+impl EvalColumns<'_> {
+    #[inline(always)]
+    fn put<R: Real>(&mut self, (f_cos, pdf): (Spectrum<R>, R), i: usize) {
+        put(f_cos, &mut self.f_cos, i);
+        pdf.store(self.pdf, i);
+    }
+}
+
+impl SampleColumns<'_> {
+    #[inline(always)]
+    fn put<R: Real>(&mut self, s: BsdfSample<R>, i: usize) {
+        let v = s.wi.v();
+        v.x.store(self.wi[0], i);
+        v.y.store(self.wi[1], i);
+        v.z.store(self.wi[2], i);
+        put(s.weight.only_where(s.valid), &mut self.weight, i);
+        s.density.only_where(s.valid).store(self.density, i);
+        s.eta.store(self.eta, i);
+        R::ONE.only_where(s.delta).store(self.delta, i);
+    }
 }
 
 /// The loop of [`f_cos_pdf`] over `range`, whose length is a multiple of the lanes.
@@ -176,10 +207,8 @@ impl<F: Family> InLanes for Eval<'_, '_, F> {
     #[inline(always)]
     fn run<R: Real>(self) {
         for i in self.range.step_by(R::WIDTH) {
-            let model = bind::<R, F::Of<R>>(self.p, i);
-            let (f_cos, pdf) = F::f_cos_pdf(&model, dir(self.wo, i), dir(self.wi, i));
-            put(f_cos, &mut self.out.f_cos, i);
-            pdf.store(self.out.pdf, i);
+            let model = F::Of::<R>::new(&block::<R, F::Of<R>>(self.p, i));
+            self.out.put(F::f_cos_pdf(&model, dir(self.wo, i), dir(self.wi, i)), i);
         }
     }
 }
@@ -199,16 +228,8 @@ impl<F: Family> InLanes for Draw<'_, '_, F> {
     fn run<R: Real>(self) {
         let (u, out) = (self.u, self.out);
         for i in self.range.step_by(R::WIDTH) {
-            let u = Uniforms { lobe: R::load(u[0], i), dir: [R::load(u[1], i), R::load(u[2], i)] };
-            let s = F::sample(&bind::<R, F::Of<R>>(self.p, i), dir(self.wo, i), u);
-            let v = s.wi.v();
-            v.x.store(out.wi[0], i);
-            v.y.store(out.wi[1], i);
-            v.z.store(out.wi[2], i);
-            put(s.weight.only_where(s.valid), &mut out.weight, i);
-            s.density.only_where(s.valid).store(out.density, i);
-            s.eta.store(out.eta, i);
-            R::ONE.only_where(s.delta).store(out.delta, i);
+            let model = F::Of::<R>::new(&block::<R, F::Of<R>>(self.p, i));
+            out.put(F::sample(&model, dir(self.wo, i), uniforms(u, i)), i);
         }
     }
 }
@@ -226,8 +247,11 @@ pub(crate) fn eval<F: Family>(
 ) {
     let n = out.pdf.len();
     let whole = n - n % WIDTH;
-    in_lanes(Eval::<F> { p, wo, wi, out, range: 0..whole, family: PhantomData });
-    one_by_one(Eval::<F> { p, wo, wi, out, range: whole..n, family: PhantomData });
+    let lanes = Eval::<F> { p, wo, wi, out, range: 0..whole, family: PhantomData };
+    let done = if only_in_lanes(lanes).is_ok() { whole } else { 0 };
+    for i in done..n {
+        out.put(F::f_cos_pdf_alone(&block::<f32, F::Of<f32>>(p, i), dir(wo, i), dir(wi, i)), i);
+    }
 }
 
 /// Samples one model, in lanes as far as they are filled.
@@ -240,6 +264,9 @@ pub(crate) fn draw<F: Family>(
 ) {
     let n = out.density.len();
     let whole = n - n % WIDTH;
-    in_lanes(Draw::<F> { p, wo, u, out, range: 0..whole, family: PhantomData });
-    one_by_one(Draw::<F> { p, wo, u, out, range: whole..n, family: PhantomData });
+    let lanes = Draw::<F> { p, wo, u, out, range: 0..whole, family: PhantomData };
+    let done = if only_in_lanes(lanes).is_ok() { whole } else { 0 };
+    for i in done..n {
+        out.put(F::sample_alone(&block::<f32, F::Of<f32>>(p, i), dir(wo, i), uniforms(u, i)), i);
+    }
 }

@@ -163,16 +163,6 @@ pub(crate) use dispatch_lobes;
 macro_rules! dispatch {
     ($Enum:ident, $Trait:ident, $R:ty: $($Variant:ident)*) => {
         impl $crate::$Trait<$R> for $Enum<$R> {
-            fn f(&self, wo: sparrow_math::LocalDir<$R>, wi: sparrow_math::LocalDir<$R>) -> sparrow_spectra::Spectrum<$R> {
-                match self {
-                    $( $Enum::$Variant(m) => m.f(wo, wi), )*
-                }
-            }
-            fn pdf(&self, wo: sparrow_math::LocalDir<$R>, wi: sparrow_math::LocalDir<$R>) -> $R {
-                match self {
-                    $( $Enum::$Variant(m) => m.pdf(wo, wi), )*
-                }
-            }
             fn f_cos_pdf(
                 &self,
                 wo: sparrow_math::LocalDir<$R>,
@@ -275,7 +265,7 @@ macro_rules! models {
             use sparrow_math::{LocalDir, Real};
             use sparrow_spectra::Spectrum;
 
-            use $crate::{$Trait, BsdfSample, Uniforms};
+            use $crate::{$Trait, BsdfSample, ParamBlock, Uniforms};
 
             $(
                 pub(super) struct $Variant;
@@ -288,6 +278,16 @@ macro_rules! models {
                     #[inline(always)]
                     fn sample<R: Real>(m: &Self::Of<R>, wo: LocalDir<R>, u: Uniforms<R>) -> BsdfSample<R> {
                         m.sample(wo, u)
+                    }
+                    fn f_cos_pdf_alone(
+                        p: &ParamBlock<f32>,
+                        wo: LocalDir<f32>,
+                        wi: LocalDir<f32>,
+                    ) -> (Spectrum<f32>, f32) {
+                        super::$Kind::$Variant.bind(p).f_cos_pdf(wo, wi)
+                    }
+                    fn sample_alone(p: &ParamBlock<f32>, wo: LocalDir<f32>, u: Uniforms<f32>) -> BsdfSample<f32> {
+                        super::$Kind::$Variant.bind(p).sample(wo, u)
                     }
                 }
             )*

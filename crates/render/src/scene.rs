@@ -197,7 +197,7 @@ fn along_surface(point: &SurfacePoint, dp: Vec3<f32>) -> [f32; 2] {
 fn hash_to_unit(ray: &Ray, hit: &Hit) -> f32 {
     let words = [ray.o.x, ray.o.y, ray.o.z, ray.d.x, ray.d.y, ray.d.z].map(f32::to_bits);
     let mut h = 0x9e37_79b9_7f4a_7c15_u64;
-    for v in words.into_iter().chain([hit.shape, hit.prim]) {
+    for v in words.into_iter().chain([hit.shape, hit.prim]).chain(hit.instance) {
         h = (h ^ u64::from(v)).wrapping_mul(0xff51_afd7_ed55_8ccd);
         h ^= h >> 32;
     }

@@ -102,7 +102,9 @@ fn neighbours_join() {
     let s = scene(&format!(
         "ObjectBegin \"o\" {curve}{curve} ObjectEnd ObjectInstance \"o\" ObjectInstance \"o\""
     ));
-    assert_eq!((s.shapes.len(), curves(&s, 1).strands.len()), (2, 2));
+    let shapes = &s.prototypes[0].shapes;
+    let strands = |d: &ShapeDesc| if let ShapeKind::Curves(c) = &d.kind { c.strands.len() } else { 0 };
+    assert_eq!((s.instances.len(), shapes.len(), strands(&shapes[0])), (2, 1, 2));
 }
 
 #[test]

@@ -104,17 +104,25 @@ fn attribute_gives_defaults_that_a_shape_overrides() {
 }
 
 #[test]
-fn instances_become_shapes_that_share_their_mesh() {
+fn objects_are_kept_apart_from_the_places_where_they_stand() {
     let s = scene(
         "WorldBegin ObjectBegin \"o\" Translate 0 1 0 Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0] \
-         ObjectEnd Shape \"sphere\" Translate 10 0 0 ObjectInstance \"o\" Scale 2 2 2 ObjectInstance \"o\"",
+         ObjectEnd Shape \"sphere\" ObjectBegin \"none\" ObjectEnd ObjectInstance \"none\" \
+         Translate 10 0 0 ObjectInstance \"o\" Scale 2 2 2 ObjectInstance \"o\"",
     );
-    assert_eq!(s.shapes.len(), 3);
-    assert!(near(origin(&s, 0), [0.0; 3]));
-    assert!(near(origin(&s, 1), [10.0, 1.0, 0.0]));
-    assert!(near(origin(&s, 2), [10.0, 2.0, 0.0]), "the instance's transform goes over the shape's");
-    let (ShapeKind::Mesh(a), ShapeKind::Mesh(b)) = (&s.shapes[1].kind, &s.shapes[2].kind) else { panic!() };
-    assert!(std::sync::Arc::ptr_eq(a, b));
+    assert_eq!((s.shapes.len(), s.prototypes.len()), (1, 2));
+    assert_eq!((&*s.prototypes[0].name, s.prototypes[0].shapes.len()), ("o", 1));
+    assert_eq!(
+        s.instances.iter().map(|i| i.prototype.0).collect::<Vec<_>>(),
+        [0, 0],
+        "of nothing there is none"
+    );
+    let placed = |i: usize| {
+        let p = s.prototypes[0].shapes[0].to_world.point(Default::default());
+        s.instances[i].to_world.point(p).to_f32().to_array()
+    };
+    assert_eq!(placed(0), [10.0, 1.0, 0.0]);
+    assert_eq!(placed(1), [10.0, 2.0, 0.0], "the instance's transform goes over the shape's");
 }
 
 #[test]

@@ -80,6 +80,17 @@ pub fn sidak(level: f64, n: usize) -> f64 {
     if x > -1e-5 { -x * (1.0 + 0.5 * x) } else { 1.0 - Real::exp(x) }
 }
 
+/// Probability that the smallest of `n` independent probabilities is `p` or less: what [`sidak`] undoes.
+pub fn sidak_p(p: f64, n: usize) -> f64 {
+    if p >= 1.0 {
+        return 1.0;
+    }
+    // 1 - (1 - p)^n, without the loss of digits.
+    let l = if p < 1e-8 { -p } else { Real::ln(1.0 - p) };
+    let x = l * n as f64;
+    if x > -1e-5 { -x * (1.0 + 0.5 * x) } else { 1.0 - Real::exp(x) }
+}
+
 /// Level for each of `n` tests, independent or not, that keeps the chance of any false alarm below `level`.
 pub fn bonferroni(level: f64, n: usize) -> f64 {
     level / n.max(1) as f64
@@ -133,6 +144,10 @@ mod tests {
         assert!((sidak(0.05, 3) - 0.016_952_427_508).abs() < 1e-11);
         assert!((bonferroni(0.05, 5) - 0.01).abs() < 1e-15);
         assert!((sidak(1e-4, 1) - 1e-4).abs() < 1e-12);
+        for (level, n) in [(0.05, 3), (1e-4, 1), (0.01, 1_000_000)] {
+            assert!((sidak_p(sidak(level, n), n) / level - 1.0).abs() < 1e-7, "{level} {n}");
+        }
+        assert!((sidak_p(1.0, 5) - 1.0).abs() < 1e-15 && sidak_p(0.0, 5) <= 0.0);
         assert!(sidak(1e-3, 1000) > bonferroni(1e-3, 1000));
     }
 }

@@ -23,7 +23,7 @@ mod random;
 pub mod special;
 mod weights;
 
-pub use chi_square::{Cell, ChiSquare, bonferroni, chi_square, sidak};
+pub use chi_square::{Cell, ChiSquare, bonferroni, chi_square, sidak, sidak_p};
 pub use compare::{Departure, consistency, reciprocity};
 pub use images::{ZTest, images_z_test};
 pub use mean::{Mean, albedo};

@@ -158,8 +158,8 @@ mod tests {
     fn what_cannot_be_read_is_told() {
         let told = |w: &str| Pins::parse(TABLE, &[w]).unwrap_err().to_string();
         assert_eq!(told("alpha"), "`alpha` is no parameter; write NAME=VALUE");
-        assert_eq!(told("alpah=1"), "no parameter `alpah`; did you mean `alpha`?");
-        assert_eq!(told("shine=1"), "no parameter `shine`; there are alpha, rho, kind, wo");
+        assert_eq!(told("alpah=1"), "no parameter `alpah`; did you mean \"alpha\"?");
+        assert_eq!(told("shine=1"), "no parameter `shine`; known are alpha, kind, rho, wo");
         assert_eq!(told("alpha=2"), "`alpha=2`: give a number from 0 to 1");
         assert_eq!(told("rho=1,0"), "`rho=1,0`: give a number from 0 to 1, or four with commas");
         assert_eq!(told("kind=three"), "`kind=three`: give one of one, two");

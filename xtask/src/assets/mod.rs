@@ -2,6 +2,7 @@
 
 mod cloth;
 mod grid;
+mod herbert;
 mod textures;
 mod vase;
 
@@ -25,7 +26,7 @@ pub fn write(scenes: &Path) -> Result<String, String> {
         png(&path, side, colour)?;
         report.push(path);
     }
-    for (name, text) in [("cloth", cloth::ply()), ("vase", vase::ply())] {
+    for (name, text) in [("cloth", cloth::ply()), ("herbert", herbert::ply()), ("vase", vase::ply())] {
         let path = scenes.join(format!("meshes/{name}.ply"));
         fs::write(&path, text).map_err(|e| format!("{}: {e}", path.display()))?;
         report.push(path);
@@ -56,7 +57,7 @@ mod tests {
         let fresh = std::env::temp_dir().join(format!("xtask-assets-{}", std::process::id()));
         write(&fresh).expect("assets");
         let mut names: Vec<String> = textures::ALL.iter().map(|(n, ..)| format!("textures/{n}")).collect();
-        names.extend(["cloth", "vase"].map(|n| format!("meshes/{n}.ply")));
+        names.extend(["cloth", "herbert", "vase"].map(|n| format!("meshes/{n}.ply")));
         for name in names {
             let [old, new] = [scenes.join(&name), fresh.join(&name)].map(|p| fs::read(p).expect("a file"));
             assert!(old == new, "{name} differs; run `cargo run -p xtask -- assets`");

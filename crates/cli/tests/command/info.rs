@@ -39,7 +39,7 @@ fn a_scene_is_counted() {
 }
 
 #[test]
-fn instances_are_flattened() {
+fn objects_are_counted_once_and_their_instances_apart() {
     let s = Scratch::new();
     let mesh = "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0] \"integer indices\" [0 1 2]";
     let object = format!("ObjectBegin \"a\"\n{mesh}\nObjectEnd\n");
@@ -47,9 +47,12 @@ fn instances_are_flattened() {
         "many.pbrt",
         &format!("WorldBegin\n{object}{}", "Translate 1 0 0 ObjectInstance \"a\"\n".repeat(3)),
     );
-    let shapes = s.run("info many.pbrt --json").ok().json()["shapes"].clone();
-    let counts = ["triangles", "meshes", "distinct_meshes"].map(|k| shapes[k].as_u64().unwrap());
-    assert_eq!(counts, [3, 3, 1]);
+    let json = s.run("info many.pbrt --json").ok().json();
+    let counts = ["triangles", "meshes", "distinct_meshes"].map(|k| json["shapes"][k].as_u64().unwrap());
+    assert_eq!(counts, [1, 1, 1]);
+    assert_eq!(json["instances"], serde_json::json!({ "total": 3, "prototypes": 1, "shapes": 1 }));
+    assert_eq!(json["materials"][0]["shapes"], 1);
+    assert!(s.run("info many.pbrt").ok().out.contains("3 of 1 object with 1 shape"));
 }
 
 #[test]

@@ -2,7 +2,9 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test that cannot go on has failed")]
 
+mod compare;
 mod errors;
+mod groom;
 mod info;
 #[cfg(unix)]
 mod interrupts;

@@ -82,7 +82,7 @@ fn what_cannot_be_asked_is_told() {
         ("verify", "name one model, or give --all"),
         ("verify chrome", "there is no model `chrome`"),
         ("verify lambret", "did you mean \"lambert\"?"),
-        ("verify lambert shine=1", "no parameter `shine`; there are reflectance, wo"),
+        ("verify lambert shine=1", "no parameter `shine`; known are reflectance, wo"),
         ("verify lambert reflectance=2", "give a number from 0 to 1"),
         ("models chrome", "`sparrow models` lists them"),
     ] {

@@ -1,12 +1,15 @@
 //! Rays per second of processor time: meshes and soups of triangles; camera, bounce and shadow rays; one thread.
 //!
 //! `cargo bench -p sparrow-geometry --bench rays -- [SCENE] [ROUNDS] [RESOLUTION] [SETTINGS]`, with SCENE one of `mesh`, `soup`, `small`
-//! or `all`; or `instances`, and instead of SETTINGS their number. With `--features embree` and `EMBREE_LIB_DIR` naming a folder that holds `libembree4.so`, every round runs Embree
-//! beside it, and the ratio of the two is the median over the rounds. Linux only: the clock is a thread's processor time.
+//! or `all`; or `instances`, and instead of SETTINGS their number; or `build`, which builds with one thread and with two. With
+//! `--features embree` and `EMBREE_LIB_DIR` naming a folder that holds `libembree4.so`, every round runs Embree beside it, and the
+//! ratio of the two is the median over the rounds. Linux only: the clock is a thread's processor time.
 
 #![allow(clippy::print_stdout, reason = "printing is what it is for")]
 #![allow(clippy::unwrap_used, reason = "a benchmark stops where something is missing")]
 
+#[cfg(target_os = "linux")]
+mod build;
 #[cfg(target_os = "linux")]
 #[cfg(feature = "embree")]
 mod embree;
@@ -37,6 +40,9 @@ fn main() {
         if wanted(scene.name) {
             scene.run(rounds, resolution, settings);
         }
+    }
+    if what == "build" {
+        scenes::ALL.iter().for_each(|scene| build::run(scene.name, &scene.mesh(), rounds));
     }
     if what == "instances" {
         instances::run(scenes::bumpy_ball(20), number(3, 10_000_000), rounds, resolution);

@@ -41,7 +41,7 @@ pub(crate) fn cpu_seconds() -> f64 {
     t.tv_sec() as f64 + 1e-9 * t.tv_nsec() as f64
 }
 
-fn median(mut v: Vec<f64>) -> f64 {
+pub(crate) fn median(mut v: Vec<f64>) -> f64 {
     v.sort_by(f64::total_cmp);
     v[v.len() / 2]
 }

@@ -40,9 +40,17 @@ pub(crate) const ALL: [Scene; 3] = [
 ];
 
 impl Scene {
+    /// Its triangles.
+    pub(crate) fn mesh(&self) -> TriangleMesh {
+        (self.mesh)()
+    }
     /// Builds the tree and times all rays, beside the first `settings` of Embree.
+    #[cfg_attr(
+        not(feature = "embree"),
+        allow(unused_mut, unused_variables, reason = "Embree is added where it is there")
+    )]
     pub(crate) fn run(&self, rounds: usize, resolution: usize, settings: usize) {
-        let mesh = (self.mesh)();
+        let mesh = self.mesh();
         println!("{}: {} triangles", self.name, mesh.indices.len());
         let instance = ShapeInstance {
             shape: Shape::Triangles(mesh.clone()),
@@ -54,7 +62,6 @@ impl Scene {
         let (seconds, stats) = (cpu_seconds() - start, geometry.stats());
         let megabytes = 1e-6 * stats.bytes as f64;
         println!("  built in {seconds:.3} s: {} nodes, {megabytes:.1} MB with the mesh", stats.nodes);
-        #[cfg_attr(not(feature = "embree"), allow(unused_mut, reason = "Embree is added where it is there"))]
         let mut tracers: Vec<Box<dyn Tracer + '_>> = vec![Box::new(Single(&geometry))];
         #[cfg(feature = "embree")]
         for tracer in crate::embree::all(&mesh, settings) {

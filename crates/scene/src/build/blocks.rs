@@ -1,10 +1,12 @@
 //! Blocks: attributes, objects and their instances, `WorldBegin`.
 
+use std::sync::Arc;
+
 use sparrow_math::Transform;
 
 use super::Builder;
 use super::graphics::{Graphics, Target};
-use super::shapes::{Item, Object, Use};
+use super::shapes::{Object, PendingInstance};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::parser::Parser;
 use crate::suggest::remedy;
@@ -147,7 +149,7 @@ impl Builder {
     }
 
     fn object_begin(&mut self, (name, name_at): (String, Span), at: Span) {
-        let nested = self.open_object.as_ref().and_then(|o| self.objects.get(o)).map(|o| o.at);
+        let nested = self.open_object.and_then(|i| self.objects.get(i)).map(|o| o.at);
         if let Some(outer) = nested {
             let place = self.report.place(outer);
             let message = format!(
@@ -158,13 +160,16 @@ impl Builder {
             return;
         }
         self.open(BlockKind::Object, at);
-        if let Some(first) = self.objects.get(&name) {
+        let first = self.object_names.get(name.as_str()).and_then(|&i| self.objects.get(i));
+        if let Some(first) = first {
             let place = self.report.place(first.at);
             self.report
                 .error(name_at, format!("the object \"{name}\" is defined already at {place}; rename one"));
         }
-        self.objects.insert(name.clone(), Object { at, shapes: Vec::new() });
-        self.open_object = Some(name);
+        let name: Arc<str> = name.into();
+        self.open_object = Some(self.objects.len());
+        self.object_names.insert(Arc::clone(&name), self.objects.len());
+        self.objects.push(Object { name, at, shapes: Vec::new() });
     }
 
     fn object_instance(&mut self, (name, name_at): (String, Span), at: Span) {
@@ -173,7 +178,7 @@ impl Builder {
             return;
         }
         let to_world = self.ctm(at);
-        self.items.push(Item::Use(Box::new(Use { name, at: name_at, to_world })));
+        self.instances.push(PendingInstance { name, at: name_at, to_world });
     }
 
     fn attribute(&mut self, parser: &mut Parser<'_>) -> Result<(), Diagnostic> {

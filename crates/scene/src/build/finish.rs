@@ -1,19 +1,16 @@
-//! The end of the scene: names become indices, instances become shapes.
+//! The end of the scene: names become indices.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::HashSet;
 use std::rc::Rc;
-
-use sparrow_math::Transform;
 
 use super::Builder;
 use super::materials::{MaterialRef, Materials};
-use super::shapes::{Alpha, Item, Object, PendingShape, Use};
-use crate::desc::{FloatTextureId, MaterialId, SceneDesc, ShapeDesc};
+use super::shapes::{Alpha, Object, PendingInstance, PendingShape};
+use crate::desc::{
+    FloatTextureId, InstanceDesc, MaterialId, PrototypeDesc, PrototypeId, SceneDesc, ShapeDesc,
+};
 use crate::diagnostic::{SceneError, Span};
 use crate::suggest::remedy;
-
-/// Instances make shapes of their own; more than this would fill the memory before a ray is traced.
-const MAX_SHAPES: usize = 10_000_000;
 
 impl Builder {
     /// Resolves all names and returns the scene, or everything that is wrong with it.
@@ -39,7 +36,11 @@ impl Builder {
         self.check_replacements();
         self.make_textures();
         let materials = self.make_materials();
-        let shapes = self.make_shapes(&materials);
+        let mut resolver = Resolver { materials: &materials, said: HashSet::new() };
+        let shapes = std::mem::take(&mut self.shapes);
+        let shapes = shapes.into_iter().map(|s| self.resolved(s, &mut resolver)).collect();
+        let prototypes = self.make_prototypes(&mut resolver);
+        let instances = self.make_instances(&prototypes);
         if !self.report.is_clean() {
             return Err(self.report.into_error());
         }
@@ -59,6 +60,8 @@ impl Builder {
             integrator,
             seed: self.setup.seed,
             shapes,
+            prototypes,
+            instances,
             materials: materials.all,
             lights: self.lights,
             area_lights: self.area_lights,
@@ -79,56 +82,30 @@ impl Builder {
         }
     }
 
-    fn make_shapes(&mut self, materials: &Materials) -> Vec<ShapeDesc> {
-        let items = std::mem::take(&mut self.items);
+    fn make_prototypes(&mut self, resolver: &mut Resolver<'_>) -> Vec<PrototypeDesc> {
         let objects = std::mem::take(&mut self.objects);
-        let mut resolver = Resolver { materials, said: HashSet::new() };
-        let Some(n) = self.n_shapes(&items, &objects) else { return Vec::new() };
-        let mut out = Vec::with_capacity(n);
-        // Shapes of objects are resolved once, also for objects that are never used.
-        let mut resolved: HashMap<String, Vec<ShapeDesc>> = HashMap::new();
-        for (name, object) in objects {
-            let shapes = object.shapes.into_iter().map(|s| self.resolved(s, &mut resolver)).collect();
-            resolved.insert(name, shapes);
-        }
-        for item in items {
-            match item {
-                Item::Shape(shape) => out.push(self.resolved(*shape, &mut resolver)),
-                Item::Use(u) => self.instantiate(&u, &resolved, &mut out),
-            }
-        }
-        out
-    }
-
-    /// How many shapes there will be; `None`, and a fault, where there are too many.
-    fn n_shapes(&mut self, items: &[Item], objects: &HashMap<String, Object>) -> Option<usize> {
-        let mut n = 0_usize;
-        for item in items {
-            n = n.saturating_add(match item {
-                Item::Shape(_) => 1,
-                Item::Use(u) => objects.get(&u.name).map_or(0, |o| o.shapes.len()),
-            });
-            if let (Item::Use(u), true) = (item, n > MAX_SHAPES) {
-                let message = format!(
-                    "with this instance the scene has more than {MAX_SHAPES} shapes; join shapes to meshes"
-                );
-                self.report.error(u.at, message);
-                return None;
-            }
-        }
-        Some(n)
-    }
-
-    fn instantiate(&mut self, u: &Use, objects: &HashMap<String, Vec<ShapeDesc>>, out: &mut Vec<ShapeDesc>) {
-        let Some(shapes) = objects.get(&u.name) else {
-            let remedy = remedy(&u.name, objects.keys().map(String::as_str));
-            self.report.error(u.at, format!("there is no object \"{}\"; {remedy}", u.name));
-            return;
+        let prototype = |Object { name, at, shapes }| {
+            let shapes = shapes.into_iter().map(|s| self.resolved(s, resolver)).collect();
+            PrototypeDesc { name, shapes, at }
         };
-        for shape in shapes {
-            let to_world: Transform = u.to_world.then_first(&shape.to_world);
-            out.push(ShapeDesc { to_world, ..shape.clone() });
+        objects.into_iter().map(prototype).collect()
+    }
+
+    /// Instances; those of objects without shapes are left out, as there is nothing of them to see.
+    fn make_instances(&mut self, prototypes: &[PrototypeDesc]) -> Vec<InstanceDesc> {
+        let pending = std::mem::take(&mut self.instances);
+        let mut instances = Vec::with_capacity(pending.len());
+        for PendingInstance { name, at, to_world } in pending {
+            match self.object_names.get(name.as_str()) {
+                Some(&i) if prototypes.get(i).is_some_and(|p| p.shapes.is_empty()) => {}
+                Some(&i) => instances.push(InstanceDesc { prototype: PrototypeId(i as u32), to_world }),
+                None => {
+                    let remedy = remedy(&name, self.object_names.keys().map(AsRef::as_ref));
+                    self.report.error(at, format!("there is no object \"{name}\"; {remedy}"));
+                }
+            }
         }
+        instances
     }
 
     fn resolved(&mut self, shape: PendingShape, resolver: &mut Resolver<'_>) -> ShapeDesc {

@@ -39,7 +39,7 @@ use blocks::Block;
 use graphics::Graphics;
 use materials::PendingMaterial;
 use replace::Replacement;
-use shapes::{Item, Object};
+use shapes::{Object, PendingInstance, PendingShape};
 use textures::{PendingTexture, Textures};
 
 /// A statement before `WorldBegin`, checked; the last one of its kind counts.
@@ -92,10 +92,14 @@ pub(crate) struct Builder {
     medium_uses: Vec<(String, Span)>,
     lights: Vec<LightDesc>,
     area_lights: Vec<AreaLightDesc>,
-    items: Vec<Item>,
-    objects: HashMap<String, Object>,
+    /// Shapes outside of objects.
+    shapes: Vec<PendingShape>,
+    /// Objects in file order, and where each name's lies among them.
+    objects: Vec<Object>,
+    object_names: HashMap<Arc<str>, usize>,
     /// The object between `ObjectBegin` and `ObjectEnd`.
-    open_object: Option<String>,
+    open_object: Option<usize>,
+    instances: Vec<PendingInstance>,
 
     /// Meshes by file; `None` for those that could not be read.
     meshes: HashMap<PathBuf, Option<Arc<Mesh>>>,
@@ -126,9 +130,11 @@ impl Builder {
             medium_uses: Vec::new(),
             lights: Vec::new(),
             area_lights: Vec::new(),
-            items: Vec::new(),
-            objects: HashMap::new(),
+            shapes: Vec::new(),
+            objects: Vec::new(),
+            object_names: HashMap::new(),
             open_object: None,
+            instances: Vec::new(),
             meshes: HashMap::new(),
             spectra: spectrum::Cache::default(),
             made: Textures::default(),

@@ -47,23 +47,17 @@ impl PendingShape {
 /// An object: shapes to be instanced.
 #[derive(Debug)]
 pub(super) struct Object {
+    pub(super) name: Arc<str>,
     pub(super) at: Span,
     pub(super) shapes: Vec<PendingShape>,
 }
 
-/// An instance of an object.
+/// An instance whose object is still a name.
 #[derive(Debug)]
-pub(super) struct Use {
+pub(super) struct PendingInstance {
     pub(super) name: String,
     pub(super) at: Span,
     pub(super) to_world: Transform,
-}
-
-/// What the world is made of, in file order.
-#[derive(Debug)]
-pub(super) enum Item {
-    Shape(Box<PendingShape>),
-    Use(Box<Use>),
 }
 
 impl Builder {
@@ -92,21 +86,12 @@ impl Builder {
             alpha: alpha(&params),
             at: params.at,
         };
-        match self.open_object.as_ref().and_then(|name| self.objects.get_mut(name)) {
-            Some(object) => {
-                if !object.shapes.last_mut().is_some_and(|last| last.takes(&shape)) {
-                    object.shapes.push(shape);
-                }
-            }
-            None => {
-                let taken = match self.items.last_mut() {
-                    Some(Item::Shape(last)) => last.takes(&shape),
-                    Some(Item::Use(_)) | None => false,
-                };
-                if !taken {
-                    self.items.push(Item::Shape(Box::new(shape)));
-                }
-            }
+        let shapes = match self.open_object.and_then(|i| self.objects.get_mut(i)) {
+            Some(object) => &mut object.shapes,
+            None => &mut self.shapes,
+        };
+        if !shapes.last_mut().is_some_and(|last| last.takes(&shape)) {
+            shapes.push(shape);
         }
     }
 

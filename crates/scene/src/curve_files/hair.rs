@@ -5,12 +5,12 @@ use super::{CurveFile, Fault, Gathered};
 use crate::desc::CurveBasis;
 
 pub(super) const MAGIC: &[u8] = b"HAIR";
-const HEADER: usize = 128;
+pub(super) const HEADER: usize = 128;
 
 /// Flags of the header, in the order in which the arrays follow it.
-const SEGMENTS: usize = 1;
-const POINTS: usize = 2;
-const THICKNESS: usize = 4;
+pub(super) const SEGMENTS: usize = 1;
+pub(super) const POINTS: usize = 2;
+pub(super) const THICKNESS: usize = 4;
 
 /// Transparency and colour come last and are not looked at.
 pub(super) fn read(bytes: &[u8]) -> Result<CurveFile, Fault> {

@@ -1,4 +1,4 @@
-//! Strands in files of other programs: [`read`].
+//! Strands in files: [`read`], [`hair_bytes`].
 //!
 //! - HAIR, of Cem Yuksel's cyHair (`.hair`, told by its first four bytes), with any choice of arrays;
 //! - AMD's TressFX (`.tfx`), guide strands;
@@ -6,7 +6,7 @@
 //!
 //! All may be compressed with gzip, told by content. Widths are diameters, in all of Sparrow.
 //!
-//! Source of the formats: http://www.cemyuksel.com/research/hairmodels; TressFX 4.1, `TressFXFileFormat.h`; Mitsuba 3,
+//! Source of the formats: <http://www.cemyuksel.com/research/hairmodels>; TressFX 4.1, `TressFXFileFormat.h`; Mitsuba 3,
 //! plugin reference, `bsplinecurve`.
 
 mod bytes;
@@ -15,6 +15,7 @@ mod hair;
 mod tests;
 mod text;
 mod tfx;
+mod write;
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -22,6 +23,8 @@ use std::path::{Path, PathBuf};
 use crate::desc::CurveBasis;
 use crate::ply::Place;
 use crate::source;
+
+pub use write::hair_bytes;
 
 /// Strands as their file has them.
 #[derive(Clone, Debug, Default, PartialEq)]

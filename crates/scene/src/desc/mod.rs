@@ -5,6 +5,7 @@
 //! a file that is missing or broken is the scene's fault. Textures and environment maps are named by path.
 
 mod curves;
+mod instance;
 mod light;
 mod material;
 mod sampling;
@@ -19,6 +20,7 @@ use crate::diagnostic::Diagnostic;
 
 pub(crate) use curves::MAX_POINTS;
 pub use curves::{CurveBasis, CurveKind, Curves};
+pub use instance::{InstanceDesc, PrototypeDesc};
 pub use light::{AreaLightDesc, LightDesc, LightKind, LightSamplerName};
 pub use material::{MaterialDesc, RealParam, SpectrumParam};
 pub use sampling::{IntegratorDesc, IntegratorName, RandomizeName, SamplerDesc, SamplerName};
@@ -44,8 +46,12 @@ pub struct SceneDesc {
     pub integrator: IntegratorDesc,
     /// `Option "seed"`, 0 unless given.
     pub seed: u64,
-    /// All shapes, instances flattened, in file order.
+    /// All shapes outside of objects, in file order.
     pub shapes: Vec<ShapeDesc>,
+    /// All objects, in file order, also those that are never placed.
+    pub prototypes: Vec<PrototypeDesc>,
+    /// Where they stand, in file order.
+    pub instances: Vec<InstanceDesc>,
     /// All materials; index 0 is pbrt's default, diffuse with reflectance 0.5.
     pub materials: Vec<MaterialDesc>,
     /// All light sources but area lights.
@@ -73,6 +79,9 @@ pub struct SpectrumTextureId(pub u32);
 /// Index into [`SceneDesc::materials`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct MaterialId(pub u32);
+/// Index into [`SceneDesc::prototypes`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct PrototypeId(pub u32);
 /// Index into [`SceneDesc::area_lights`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct AreaLightId(pub u32);

@@ -71,7 +71,7 @@ pub enum ShapeKind {
 pub struct ShapeDesc {
     /// Its form.
     pub kind: ShapeKind,
-    /// Object to world.
+    /// Its own space to world; of a shape of a prototype, to the prototype's space.
     pub to_world: Transform,
     /// `ReverseOrientation` was in force.
     pub reverse_orientation: bool,

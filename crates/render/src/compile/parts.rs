@@ -1,0 +1,156 @@
+//! Shapes and instances as the geometry takes them: [`Parts`].
+
+use core::mem::take;
+use std::sync::Arc;
+
+use sparrow_geometry::{BilinearMesh, CurveSet, Instance, Shape, ShapeInstance, TriangleMesh};
+use sparrow_math::{Real, Transform, Vec3};
+use sparrow_scene::{
+    AreaLightId, CurveBasis, CurveKind, Curves, FloatTextureId, InstanceDesc, MaterialId, Mesh, SceneDesc,
+    ShapeDesc, ShapeKind,
+};
+
+/// What the geometry is built from, and what belongs to each of its shapes, those of the world before those of prototypes.
+#[derive(Default)]
+pub(super) struct Parts {
+    pub(super) shapes: Vec<ShapeInstance>,
+    pub(super) prototypes: Vec<Vec<ShapeInstance>>,
+    pub(super) instances: Vec<Instance>,
+    pub(super) materials: Vec<MaterialId>,
+    pub(super) emitters: Vec<Option<AreaLightId>>,
+    pub(super) alpha: Vec<Option<FloatTextureId>>,
+}
+
+impl Parts {
+    /// Moves shapes, prototypes and instances out of a description. What stands in one place only becomes shapes of the world,
+    /// where a ray finds it without a change of space; what stands nowhere is left out.
+    pub(super) fn new(desc: &mut SceneDesc, is_seen: impl Fn(&ShapeDesc) -> bool) -> Parts {
+        let (mut prototypes, instances) = (take(&mut desc.prototypes), take(&mut desc.instances));
+        let mut n_places = vec![0_usize; prototypes.len()];
+        instances.iter().for_each(|i| n_places[i.prototype.0 as usize] += 1);
+
+        let mut parts = Parts::default();
+        take(&mut desc.shapes).into_iter().filter(&is_seen).for_each(|s| parts.push(s));
+        // A quadric that is mirrored with its prototype keeps its outside, one that is mirrored as a shape does not.
+        let is_single =
+            |i: &InstanceDesc| n_places[i.prototype.0 as usize] == 1 && !i.to_world.swaps_handedness();
+        let (single, placed): (Vec<InstanceDesc>, Vec<InstanceDesc>) =
+            instances.into_iter().partition(is_single);
+        for InstanceDesc { prototype, to_world } in single {
+            let shapes = take(&mut prototypes[prototype.0 as usize].shapes);
+            let in_world = |s: ShapeDesc| ShapeDesc { to_world: to_world.then_first(&s.to_world), ..s };
+            shapes.into_iter().filter(&is_seen).for_each(|s| parts.push(in_world(s)));
+        }
+        let n_world = parts.shapes.len();
+        for (prototype, &n) in prototypes.into_iter().zip(&n_places) {
+            let shapes = if n > 0 { prototype.shapes } else { Vec::new() };
+            shapes.into_iter().filter(&is_seen).for_each(|s| parts.push(s));
+            let shapes = parts.shapes.split_off(n_world);
+            parts.prototypes.push(shapes);
+        }
+        // An instance of nothing has no box, and would count as dropped.
+        let is_there = |i: &InstanceDesc| !parts.prototypes[i.prototype.0 as usize].is_empty();
+        parts.instances = placed.into_iter().filter(is_there).map(instance).collect();
+        parts
+    }
+
+    /// Adds a shape, in the space that its `to_world` leads to.
+    fn push(&mut self, mut s: ShapeDesc) {
+        let flip = s.reverse_orientation != s.to_world.swaps_handedness();
+        let radians = f32::to_radians;
+        let kind = core::mem::replace(&mut s.kind, ShapeKind::Mesh(Arc::default()));
+        match kind {
+            ShapeKind::Mesh(mesh) => self.push_mesh(mesh, &s, flip),
+            ShapeKind::Curves(curves) => {
+                let curves = Shape::Curves(curve_set(curves, &s.to_world));
+                self.push_shape(curves, Transform::IDENTITY, flip, &s);
+            }
+            ShapeKind::Sphere { radius, z_min, z_max, phi_max } => {
+                let shape = Shape::Sphere { radius, z_min, z_max, phi_max: radians(phi_max) };
+                self.push_shape(shape, s.to_world, flip, &s);
+            }
+            ShapeKind::Disk { height, radius, inner_radius, phi_max } => {
+                let shape = Shape::Disk { height, radius, inner_radius, phi_max: radians(phi_max) };
+                self.push_shape(shape, s.to_world, flip, &s);
+            }
+            ShapeKind::Cylinder { radius, z_min, z_max, phi_max } => {
+                let shape = Shape::Cylinder { radius, z_min, z_max, phi_max: radians(phi_max) };
+                self.push_shape(shape, s.to_world, flip, &s);
+            }
+        }
+    }
+
+    fn push_shape(&mut self, shape: Shape, to_world: Transform, flip_normal: bool, of: &ShapeDesc) {
+        self.shapes.push(ShapeInstance { shape, to_world, flip_normal });
+        self.materials.push(of.material);
+        self.emitters.push(of.area_light);
+        self.alpha.push(of.alpha);
+    }
+
+    /// A mesh in the space that shapes stand in: triangles and patches apart.
+    fn push_mesh(&mut self, mesh: Arc<Mesh>, s: &ShapeDesc, flip: bool) {
+        // The last holder of a mesh gives its memory away.
+        let mut mesh = Arc::try_unwrap(mesh).unwrap_or_else(|shared| (*shared).clone());
+        if !s.to_world.is_identity() {
+            let map = |v: &mut [f32; 3], f: &dyn Fn(Vec3<f64>) -> Vec3<f64>| {
+                *v = f(Vec3::from(*v).to_f64()).to_f32().to_array();
+            };
+            mesh.p.iter_mut().for_each(|v| map(v, &|p| s.to_world.point(p)));
+            mesh.n.iter_mut().for_each(|v| map(v, &|n| s.to_world.normal(n).normalized()));
+            mesh.s.iter_mut().for_each(|v| map(v, &|t| s.to_world.vector(t).normalized()));
+        }
+        if s.reverse_orientation {
+            mesh.n.iter_mut().for_each(|n| *n = n.map(|c| -c));
+        }
+        let Mesh { p, n, s: tangents, uv, triangles, patches } = mesh;
+        if !patches.is_empty() {
+            let patches = if triangles.is_empty() {
+                BilinearMesh { p, indices: patches, n, uv }
+            } else {
+                let both = BilinearMesh { p: p.clone(), indices: patches, n: n.clone(), uv: uv.clone() };
+                let tri = TriangleMesh { p, indices: triangles, n, s: tangents, uv };
+                self.push_shape(Shape::Triangles(tri), Transform::IDENTITY, flip, s);
+                both
+            };
+            self.push_shape(Shape::Patches(patches), Transform::IDENTITY, flip, s);
+        } else if !triangles.is_empty() {
+            let tri = TriangleMesh { p, indices: triangles, n, s: tangents, uv };
+            self.push_shape(Shape::Triangles(tri), Transform::IDENTITY, flip, s);
+        }
+    }
+}
+
+/// An instance in single precision.
+fn instance(i: InstanceDesc) -> Instance {
+    let [x, y, z, _] = i.to_world.rows().map(|row| row.map(|v| v as f32));
+    Instance { to_world: [x, y, z], prototype: i.prototype.0 }
+}
+
+/// Curves in the space that shapes stand in. Of an uneven scaling radii get the mean, so that sections stay round.
+fn curve_set(curves: Arc<Curves>, to_world: &Transform) -> CurveSet {
+    let Curves { mut points, strands, basis, kind, mut normals, split_depth } =
+        Arc::try_unwrap(curves).unwrap_or_else(|shared| (*shared).clone());
+    if !to_world.is_identity() {
+        let scale = Real::pow(to_world.determinant().abs(), 1.0 / 3.0) as f32;
+        for [x, y, z, r] in &mut points {
+            let p = to_world.point(Vec3 { x: *x, y: *y, z: *z }.to_f64()).to_f32();
+            [*x, *y, *z, *r] = [p.x, p.y, p.z, *r * scale];
+        }
+        for n in &mut normals {
+            *n = to_world.normal(Vec3::from(*n).to_f64()).normalized().to_f32().to_array();
+        }
+    }
+    let basis = match basis {
+        CurveBasis::Linear => sparrow_geometry::CurveBasis::Linear,
+        CurveBasis::Bezier => sparrow_geometry::CurveBasis::Bezier,
+        CurveBasis::BSpline => sparrow_geometry::CurveBasis::BSpline,
+        CurveBasis::CatmullRom => sparrow_geometry::CurveBasis::CatmullRom,
+    };
+    let kind = match kind {
+        CurveKind::Flat => sparrow_geometry::CurveKind::Flat,
+        CurveKind::Cylinder => sparrow_geometry::CurveKind::Cylinder,
+        CurveKind::Ribbon => sparrow_geometry::CurveKind::Ribbon,
+        CurveKind::Round => sparrow_geometry::CurveKind::Round,
+    };
+    CurveSet { points, strands, basis, kind, normals, split_depth }
+}
