@@ -55,6 +55,7 @@ mod per_lane;
 mod registry;
 mod sheen_layer;
 pub mod suggest;
+mod summed;
 mod surface;
 mod table;
 mod v_cavity;

@@ -71,11 +71,7 @@ impl<R: Real> Segment<R> {
 
 /// Adds the shares of a segment to sums.
 #[inline(always)]
-pub(super) fn gather<R: Real>(
-    sum: &mut [Spectrum<R>; N_LOBES],
-    a: &[Spectrum<R>; N_LOBES],
-    by: [R; N_LOBES],
-) {
+fn gather<R: Real>(sum: &mut [Spectrum<R>; N_LOBES], a: &[Spectrum<R>; N_LOBES], by: [R; N_LOBES]) {
     *sum = [sum[0] + a[0] * by[0], sum[1] + a[1] * by[1], sum[2] + a[2] * by[2], sum[3] + a[3] * by[3]];
 }
 

@@ -16,17 +16,17 @@
 
 use core::f64::consts::{FRAC_PI_2, PI};
 
-use sparrow_math::{LocalDir, Real, Vec3, vec3};
+use sparrow_math::{LocalDir, Real, Vec3};
 use sparrow_spectra::Spectrum;
 
-use crate::bcsdf::weighed;
 use crate::cylinder::attenuation::Inside;
 use crate::cylinder::far_field::FarField;
-use crate::cylinder::scale::{Scale, Scales};
+use crate::cylinder::scale::{Ray, Scale, Scales};
 use crate::cylinder::section::{Flat, Section, dot, turn};
 use crate::cylinder::{FibreDir, LobeChoice};
 use crate::ggx::Ggx;
-use crate::{About, Bcsdf, BsdfSample, Lack, Model, N_LOBES, ParamBlock, ParamInfo, Uniforms, fresnel};
+use crate::summed::{Seen, Sum, Summed};
+use crate::{About, Lack, N_LOBES, ParamBlock, ParamInfo, Uniforms, fresnel};
 
 /// Nodes of TT and TRT.
 const NODES: usize = 32;
@@ -50,11 +50,11 @@ const GAUSS: [(f64, f64); 8] = [
 ];
 
 /// `frac(1/2 + (n + 1/2) x)` of the nodes n.
-const fn sequence(x: f64) -> [f32; NODES] {
+const fn sequence(x: f64) -> [f64; NODES] {
     let (mut out, mut n) = ([0.0; NODES], 0);
     while n < NODES {
         let at = 0.5 + (n as f64 + 0.5) * x;
-        out[n] = (at - (at as u32) as f64) as f32;
+        out[n] = at - (at as u32) as f64;
         n += 1;
     }
     out
@@ -62,7 +62,7 @@ const fn sequence(x: f64) -> [f32; NODES] {
 
 /// Points of low discrepancy, one column per dimension: the offset in even steps, then multiples of `1 / g^k` with `g^5 = g + 1`.
 /// [Roberts2018]
-static POINTS: [[f32; NODES]; 5] = [
+static POINTS: [[f64; NODES]; 5] = [
     sequence(1.0 / NODES as f64),
     sequence(0.856_674_883_854_502_9),
     sequence(0.733_891_856_627_126_7),
@@ -71,17 +71,22 @@ static POINTS: [[f32; NODES]; 5] = [
 ];
 
 /// A hair of facets.
+pub(super) type MicrofacetHair<R> = Summed<R, Facets>;
+
+/// The model in double precision.
 #[derive(Clone, Copy, Debug)]
-pub struct MicrofacetHair<R> {
-    sigma_a: Spectrum<R>,
-    scales: Scales<R>,
-    section: Section<R>,
-    h: R,
+pub struct Facets {
+    sigma_a: Spectrum<f64>,
+    scales: Scales,
+    section: Section<f64>,
+    h: f64,
     far: bool,
     mirror: bool,
 }
 
-impl<R: Real> Model<R> for MicrofacetHair<R> {
+impl Sum for Facets {
+    type Seen = SeenFacets;
+
     const ABOUT: About = About::new(
         "rough dielectric cylinder of facets, circular or elliptical, near or far field",
         "Huang2022, Walter2007",
@@ -130,18 +135,14 @@ impl<R: Real> Model<R> for MicrofacetHair<R> {
             .doc("F of the index, or a mirror, which has no TT and TRT."),
     ];
 
-    #[inline(always)]
-    fn new(p: &ParamBlock<R>) -> Self {
-        let alpha = [p.reals[1], p.reals[2]].map(
-            #[inline(always)]
-            |a| a.max(R::of(ROUGHNESS)),
-        );
-        MicrofacetHair {
+    fn new(p: &ParamBlock<f64>) -> Self {
+        let alpha = [p.reals[1], p.reals[2]].map(|a| a.max(ROUGHNESS));
+        Facets {
             sigma_a: p.spectra[0],
             scales: Scales {
                 ggx: Ggx::new(alpha[0], alpha[1]),
                 eta: p.reals[0],
-                tilt: (p.reals[3] * R::of(PI / 180.0)).sin_cos().into(),
+                tilt: Real::sin_cos(p.reals[3] * (PI / 180.0)).into(),
             },
             section: Section { b: p.reals[4] },
             h: p.h,
@@ -149,159 +150,79 @@ impl<R: Real> Model<R> for MicrofacetHair<R> {
             mirror: p.choices[1] != 0,
         }
     }
-}
 
-/// `atan(tan x / k)`, x in [-pi/2, pi/2].
-#[inline(always)]
-fn bent<R: Real>(x: R, k: R) -> R {
-    let (sin, cos) = x.sin_cos();
-    sin.atan2(k * cos)
+    fn seen_from(&self, wo: LocalDir<f64>) -> SeenFacets {
+        let o = FibreDir::new(wo);
+        let nodes = if self.mirror { [[Arrived::NOWHERE; NODES]; 2] } else { self.nodes(&o, wo.v()) };
+        SeenFacets { of: *self, wo: wo.v(), chances: self.chances(&o), o, nodes }
+    }
 }
 
 /// Light from the viewer at the point of the surface where it may leave.
-struct Arrived<R> {
-    w: Vec3<R>,
-    at: Scale<R>,
+#[derive(Clone, Copy, Debug)]
+struct Arrived {
+    w: Vec3<f64>,
+    /// The point, and its scale.
+    at: Flat<f64>,
+    scale: Scale,
     /// What facets left of it, zero where it went nowhere, and the length of its way inside.
-    weight: R,
-    length: R,
+    weight: f64,
+    length: f64,
 }
 
-/// Directions, seen from the axis.
-struct Pair<R> {
-    o: FibreDir<R>,
-    wo: Vec3<R>,
-    wi: Vec3<R>,
+impl Arrived {
+    const NOWHERE: Arrived = Arrived {
+        w: Vec3 { x: 0.0, y: 0.0, z: 0.0 },
+        at: [1.0, 0.0],
+        scale: Scale::NONE,
+        weight: 0.0,
+        length: 0.0,
+    };
 }
 
-impl<R: Real> MicrofacetHair<R> {
-    #[inline(always)]
-    fn scale(&self, n: Flat<R>) -> Scale<R> {
-        Scale::new(self.scales, n)
+impl Facets {
+    fn scale(&self, n: Flat<f64>) -> Scale {
+        Scale::new(&self.scales, n)
     }
     /// The point that the viewer sees at the offset `h`, and its scale.
-    #[inline(always)]
-    fn entry(&self, o: &FibreDir<R>, h: R) -> (Flat<R>, Scale<R>) {
+    fn entry(&self, o: &FibreDir<f64>, h: f64) -> (Flat<f64>, Scale) {
         let at = self.section.entry(o.across, h);
         (at, self.scale(self.section.normal(at)))
     }
-    #[inline(always)]
-    fn fresnel(&self, cos: R) -> R {
-        if self.mirror { R::ONE } else { fresnel::dielectric(cos, self.scales.eta).0 }
-    }
-    /// Value and density of R.
-    #[inline(always)]
-    fn r(&self, pair: &Pair<R>) -> [R; 2] {
-        if !self.far {
-            let [value, density, cos] = self.entry(&pair.o, self.h).1.reflected(pair.wo, pair.wi);
-            return [value * self.fresnel(cos), density];
-        }
-        [self.over_width(pair, true), self.over_width(pair, false)]
-    }
-    /// R of the far field: the value, over the part of the width that sees the light too, or the density.
-    ///
-    /// The azimuth of the normal is `psi = psi_h + atan(k tan x)` from that of the half vector, with which `D` becomes `cos^4 x`
-    /// but for the tilt, for any roughness.
-    #[allow(non_snake_case, reason = "names of the formula")]
-    #[inline(always)]
-    fn over_width(&self, pair: &Pair<R>, value: bool) -> R {
-        let sum = pair.wo + pair.wi;
-        let flat = (sum.y.sqr() + sum.z.sqr()).sqrt();
-        let some = flat.gt(R::of(1e-9));
-        let scale = R::ONE / R::select(some, flat, R::ONE);
-        let half = [R::select(some, sum.y * scale, R::ONE), R::select(some, sum.z * scale, R::ZERO)];
-        let [s, c] = self.scales.tilt;
-        let inv = R::ONE / sum.length().max(R::of(1e-9));
-        let C = (s * sum.x + c * flat) * inv;
-        let [along, around] = self.scales.ggx.alphas();
-        let slope = ((R::ONE - C) * (R::ONE + C)).max(R::ZERO) * (around / along).sqr();
-        let k = ((slope + (C * around).sqr()) / (slope + C.sqr()).max(R::of(1e-12)))
-            .min(R::ONE)
-            .sqrt()
-            .max(around);
-        // Limits of psi - psi_h, from the azimuths that viewer and light see.
-        let right = R::of(FRAC_PI_2 - 1e-4);
-        let to_o = turn(half, pair.o.across);
-        let (mut low, mut high) = ((to_o - right).max(-right), (to_o + right).min(right));
-        if value {
-            let to_i = turn(half, FibreDir::new(LocalDir::new(pair.wi)).across);
-            (low, high) = (low.max(to_i - right), high.min(to_i + right));
-        }
-        let (low, high) = (bent(low, k), bent(high, k));
-        let (middle, reach) = (R::of(0.5) * (low + high), R::of(0.5) * (high - low).max(R::ZERO));
-        let width = self.section.half_width(pair.o.across);
-        let mut sum = R::ZERO;
-        for (x, weight) in GAUSS {
-            for x in [-x, x] {
-                let (sin, cos) = (middle + reach * R::of(x)).sin_cos();
-                let stretch = cos.sqr() + (k * sin).sqr();
-                let inv = R::ONE / stretch.sqrt();
-                let (sin, cos) = (k * sin * inv, cos * inv);
-                let n = [half[0] * cos - half[1] * sin, half[1] * cos + half[0] * sin];
-                let [q, density, cos_d] = self.scale(n).reflected(pair.wo, pair.wi);
-                let one = if value { q * self.fresnel(cos_d) } else { density };
-                let dh = dot(n, pair.o.across).max(R::ZERO) * self.section.radius(n) / stretch;
-                sum = sum + R::of(weight) * one * dh;
+    /// The nodes of TT and TRT.
+    fn nodes(&self, o: &FibreDir<f64>, wo: Vec3<f64>) -> [[Arrived; NODES]; 2] {
+        let mut nodes = [[Arrived::NOWHERE; NODES]; 2];
+        for n in 0..NODES {
+            let [u0, u1, u2, u3, u4] = POINTS.map(|column| column[n]);
+            let (from, scale) = self.entry(o, if self.far { 2.0 * u0 - 1.0 } else { self.h });
+            let tt = self.scales.enter(&scale, wo, [u1, u2]).and_then(|ray| self.crossed(from, ray, 0.0));
+            let Some(tt) = tt else { continue };
+            nodes[0][n] = tt;
+            let ray = self.scales.turn_back(&tt.scale, tt.w, [u3, u4]);
+            let ray = ray.map(|ray| Ray { weight: ray.weight * tt.weight, ..ray });
+            if let Some(trt) = ray.and_then(|ray| self.crossed(tt.at, ray, tt.length)) {
+                nodes[1][n] = trt;
             }
         }
-        sum * reach * k * R::of(0.5) / width
+        nodes
     }
-    /// Light of node `n` at the end of TT or TRT.
-    #[inline(always)]
-    fn arrived(&self, o: &FibreDir<R>, wo: Vec3<R>, u: [R; 5], back: bool) -> Arrived<R> {
-        let h = if self.far { u[0] + u[0] - R::ONE } else { self.h };
-        let (at, scale) = self.entry(o, h);
-        let ray = scale.enter(wo, [u[1], u[2]]);
-        let mut out = self.crossed(at, ray.w, ray.weight, R::ZERO);
-        if back {
-            let ray = out.1.at.turn_back(out.1.w, [u[3], u[4]]);
-            out = self.crossed(out.0, ray.w, ray.weight * out.1.weight, out.1.length);
-        }
-        out.1
-    }
-    /// Light that left the point `from` of the surface along `w`, at the next point.
-    #[inline(always)]
-    fn crossed(&self, from: Flat<R>, w: Vec3<R>, weight: R, length: R) -> (Flat<R>, Arrived<R>) {
-        let d = [w.y, w.z];
+    /// Light that left the point `from` of the surface after a way of `length`, at the next point; none outwards.
+    fn crossed(&self, from: Flat<f64>, ray: Ray, length: f64) -> Option<Arrived> {
+        let d = [ray.w.y, ray.w.z];
         let t = self.section.across(from, d);
-        let inside = t.gt(R::ZERO);
-        let t = t.only_where(inside);
-        let at = [from[0] + t * d[0], from[1] + t * d[1]];
-        let arrived = Arrived {
-            w,
-            at: self.scale(self.section.normal(at)),
-            weight: weight.only_where(inside),
-            length: length + t,
-        };
-        (at, arrived)
+        (t > 0.0).then(|| {
+            let at = [from[0] + t * d[0], from[1] + t * d[1]];
+            let scale = self.scale(self.section.normal(at));
+            Arrived { w: ray.w, at, scale, weight: ray.weight, length: length + t }
+        })
     }
-    /// Value and density of TT or TRT.
-    #[inline(always)]
-    fn through(&self, pair: &Pair<R>, back: bool) -> (Spectrum<R>, R) {
-        let (mut q, mut pdf) = (Spectrum::ZERO, R::ZERO);
-        for n in 0..NODES {
-            let u = POINTS.map(
-                #[inline(always)]
-                |column| R::of(f64::from(column[n])),
-            );
-            let light = self.arrived(&pair.o, pair.wo, u, back);
-            let [value, density] = light.at.left(light.w, pair.wi);
-            let some = light.weight.gt(R::ZERO);
-            let value = (value * light.weight).only_where(some);
-            q += self.sigma_a.map(
-                #[inline(always)]
-                |sigma| (-sigma * light.length).exp() * value,
-            );
-            pdf = pdf + density.only_where(some);
-        }
-        let each = R::of(1.0 / NODES as f64);
-        (q * each, pdf * each)
+    fn fresnel(&self, cos: f64) -> f64 {
+        if self.mirror { 1.0 } else { fresnel::dielectric(cos, self.scales.eta).0 }
     }
     /// Probabilities of the lobes, not normalised: what a smooth circular fibre sends by them.
-    #[inline(always)]
-    fn chances(&self, o: &FibreDir<R>) -> [R; N_LOBES] {
+    fn chances(&self, o: &FibreDir<f64>) -> [f64; N_LOBES] {
         if self.mirror {
-            return [R::ONE, R::ZERO, R::ZERO, R::ZERO];
+            return [1.0, 0.0, 0.0, 0.0];
         }
         let (theta, eta) = ([o.sin, o.cos], self.scales.eta);
         let shares = if self.far {
@@ -309,66 +230,123 @@ impl<R: Real> MicrofacetHair<R> {
         } else {
             Inside::new(theta, self.h, eta).attenuation(self.sigma_a)
         };
-        let least = R::of(LEAST);
-        [shares[0].average() + least, shares[1].average() + least, shares[2].average() + least, R::ZERO]
+        [shares[0].average() + LEAST, shares[1].average() + LEAST, shares[2].average() + LEAST, 0.0]
     }
-    #[inline(always)]
-    fn scattered(&self, wo: LocalDir<R>, wi: LocalDir<R>) -> ([Spectrum<R>; 3], [R; 3]) {
-        let pair = Pair { o: FibreDir::new(wo), wo: wo.v(), wi: wi.v() };
-        let [r, density] = self.r(&pair);
-        if self.mirror {
-            return ([Spectrum::splat(r), Spectrum::ZERO, Spectrum::ZERO], [density, R::ZERO, R::ZERO]);
+}
+
+/// A hair with its viewer.
+pub struct SeenFacets {
+    of: Facets,
+    o: FibreDir<f64>,
+    wo: Vec3<f64>,
+    chances: [f64; N_LOBES],
+    /// Of TT and TRT.
+    nodes: [[Arrived; NODES]; 2],
+}
+
+impl SeenFacets {
+    /// Value and density of R.
+    fn r(&self, wi: LocalDir<f64>) -> [f64; 2] {
+        if !self.of.far {
+            let scale = self.of.entry(&self.o, self.of.h).1;
+            let [value, density, cos] = self.of.scales.reflected(&scale, self.wo, wi.v());
+            return [value * self.of.fresnel(cos), density];
         }
-        let (tt, tt_density) = self.through(&pair, false);
-        let (trt, trt_density) = self.through(&pair, true);
+        [self.over_width(wi, true), self.over_width(wi, false)]
+    }
+    /// R of the far field: the value, over the part of the width that sees the light too, or the density.
+    ///
+    /// The azimuth of the normal is `psi = psi_h + atan(k tan x)` from that of the half vector, with which `D` becomes `cos^4 x`
+    /// but for the tilt, for any roughness.
+    #[allow(non_snake_case, reason = "names of the formula")]
+    fn over_width(&self, wi: LocalDir<f64>, value: bool) -> f64 {
+        let (sum, scales, section) = (self.wo + wi.v(), &self.of.scales, &self.of.section);
+        let flat = (sum.y.sqr() + sum.z.sqr()).sqrt();
+        let half = if flat > 1e-9 { [sum.y / flat, sum.z / flat] } else { [1.0, 0.0] };
+        let [s, c] = scales.tilt;
+        let C = (s * sum.x + c * flat) / sum.length().max(1e-9);
+        let [along, around] = scales.ggx.alphas();
+        let slope = ((1.0 - C) * (1.0 + C)).max(0.0) * (around / along).sqr();
+        let k = ((slope + (C * around).sqr()) / (slope + C.sqr()).max(1e-12)).min(1.0).sqrt().max(around);
+        // Limits of psi - psi_h, from the azimuths that viewer and light see.
+        let right = FRAC_PI_2 - 1e-4;
+        let to_o = turn(half, self.o.across);
+        let (mut low, mut high) = ((to_o - right).max(-right), (to_o + right).min(right));
+        if value {
+            let to_i = turn(half, FibreDir::new(wi).across);
+            (low, high) = (low.max(to_i - right), high.min(to_i + right));
+        }
+        let (low, high) = (bent(low, k), bent(high, k));
+        if low >= high {
+            return 0.0;
+        }
+        let (middle, reach) = (0.5 * (low + high), 0.5 * (high - low));
+        let mut sum = 0.0;
+        for (x, weight) in GAUSS.into_iter().flat_map(|(x, w)| [(-x, w), (x, w)]) {
+            let (sin, cos) = Real::sin_cos(middle + reach * x);
+            let stretch = cos.sqr() + (k * sin).sqr();
+            let inv = 1.0 / stretch.sqrt();
+            let (sin, cos) = (k * sin * inv, cos * inv);
+            let n = [half[0] * cos - half[1] * sin, half[1] * cos + half[0] * sin];
+            let [q, density, cos_d] = scales.reflected(&self.of.scale(n), self.wo, wi.v());
+            let one = if value { q * self.of.fresnel(cos_d) } else { density };
+            sum += weight * one * dot(n, self.o.across).max(0.0) * section.radius(n) / stretch;
+        }
+        sum * reach * k * 0.5 / section.half_width(self.o.across)
+    }
+    /// Value and density of TT or TRT.
+    fn through(&self, lobe: usize, wi: LocalDir<f64>) -> (Spectrum<f64>, f64) {
+        let (mut q, mut pdf) = (Spectrum::ZERO, 0.0);
+        for light in self.nodes[lobe].iter().filter(|light| light.weight > 0.0) {
+            let [value, density] = self.of.scales.left(&light.scale, light.w, wi.v());
+            if density > 0.0 {
+                let value = value * light.weight;
+                q += self.of.sigma_a.map(|sigma| Real::exp(-sigma * light.length) * value);
+                pdf += density;
+            }
+        }
+        let each = 1.0 / NODES as f64;
+        (q * each, pdf * each)
+    }
+    fn scattered(&self, wi: LocalDir<f64>) -> ([Spectrum<f64>; 3], [f64; 3]) {
+        let [r, density] = self.r(wi);
+        let (tt, tt_density) = self.through(0, wi);
+        let (trt, trt_density) = self.through(1, wi);
         ([Spectrum::splat(r), tt, trt], [density, tt_density, trt_density])
     }
 }
 
-impl<R: Real> Bcsdf<R> for MicrofacetHair<R> {
-    #[inline(always)]
-    fn f_cos_pdf(&self, wo: LocalDir<R>, wi: LocalDir<R>) -> (Spectrum<R>, R) {
-        let ([r, tt, trt], density) = self.scattered(wo, wi);
-        let c = self.chances(&FibreDir::new(wo));
+impl Seen for SeenFacets {
+    fn f_cos_pdf(&self, wi: LocalDir<f64>) -> (Spectrum<f64>, f64) {
+        let ([r, tt, trt], density) = self.scattered(wi);
+        let c = self.chances;
         let pdf = (c[0] * density[0] + c[1] * density[1] + c[2] * density[2]) / (c[0] + c[1] + c[2]);
         (r + tt + trt, pdf)
     }
 
-    #[inline(always)]
-    fn lobes(&self, wo: LocalDir<R>, wi: LocalDir<R>) -> [Spectrum<R>; N_LOBES] {
-        let [r, tt, trt] = self.scattered(wo, wi).0;
+    fn lobes(&self, wi: LocalDir<f64>) -> [Spectrum<f64>; N_LOBES] {
+        let [r, tt, trt] = self.scattered(wi).0;
         [r, tt, trt, Spectrum::ZERO]
     }
 
-    #[inline(always)]
-    fn sample(&self, wo: LocalDir<R>, u: Uniforms<R>) -> BsdfSample<R> {
-        let o = FibreDir::new(wo);
-        let c = self.chances(&o);
+    fn draw(&self, u: Uniforms<f64>) -> Option<LocalDir<f64>> {
+        let c = self.chances;
         let lobe = LobeChoice::new(u.lobe, c, c[0] + c[1] + c[2]);
-        let h = if self.far { lobe.left + lobe.left - R::ONE } else { self.h };
-        let (r, reflects) = self.entry(&o, h).1.draw_reflected(wo.v(), u.dir);
-        let node = (lobe.left * R::of(NODES as f64) - R::of(0.5)).round();
-        let points = [
-            node.look_up(&POINTS[0]),
-            node.look_up(&POINTS[1]),
-            node.look_up(&POINTS[2]),
-            node.look_up(&POINTS[3]),
-            node.look_up(&POINTS[4]),
-        ];
-        let (tt, trt) = (self.arrived(&o, wo.v(), points, false), self.arrived(&o, wo.v(), points, true));
-        let (first, passes) = tt.at.draw_left(tt.w, u.dir);
-        let (second, comes) = trt.at.draw_left(trt.w, u.dir);
-        let [leaves, comes] = [passes & tt.weight.gt(R::ZERO), comes & trt.weight.gt(R::ZERO)];
-        let [inner, twice, _] = lobe.from;
-        let found = (!inner & reflects) | (inner & !twice & leaves) | (twice & comes);
-        let wi = Vec3::select(twice, second, Vec3::select(inner, first, r));
-        let wi = Vec3::select(found, wi, vec3(R::ZERO, R::ZERO, R::ONE));
-        let s = weighed(self, wo, LocalDir::new(wi.normalized()));
-        BsdfSample {
-            weight: s.weight.only_where(found),
-            density: s.density.only_where(found),
-            valid: s.valid & found,
-            ..s
-        }
+        let scales = &self.of.scales;
+        let wi = if lobe.from[0] {
+            let n = ((lobe.left * NODES as f64) as usize).min(NODES - 1);
+            let light = &self.nodes[usize::from(lobe.from[1])][n];
+            (light.weight > 0.0).then(|| scales.draw_left(&light.scale, light.w, u.dir)).flatten()
+        } else {
+            let h = if self.of.far { 2.0 * lobe.left - 1.0 } else { self.of.h };
+            scales.draw_reflected(&self.of.entry(&self.o, h).1, self.wo, u.dir)
+        };
+        wi.map(|wi| LocalDir::new(wi.normalized()))
     }
+}
+
+/// `atan(tan x / k)`, x in [-pi/2, pi/2].
+fn bent(x: f64, k: f64) -> f64 {
+    let (sin, cos) = Real::sin_cos(x);
+    Real::atan2(sin, k * cos)
 }
