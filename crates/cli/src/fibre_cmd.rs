@@ -54,15 +54,15 @@ fn table(rows: &[ModelError], samples: u32, seconds: f64) -> String {
     let _ = writeln!(
         out,
         "eta 1.55, no tilt, far field, {samples} rays a place. Per lobe, in percent: light of the fibre +- standard error of it; the\n\
-         model's excess over that; share of the lobe in the wrong place (what chance alone would show)\n"
+         model's excess over that; share of the lobe in the wrong place (what chance alone would show). `fur` against a fibre with a core.\n"
     );
-    let _ = write!(out, "{:<12}{:>5}{:>6}{:>7}", "model", "beta", "theta", "sigma");
+    let _ = write!(out, "{:<16}{:>5}{:>6}{:>7}", "model", "beta", "theta", "sigma");
     for lobe in ["R", "TT", "TRT", "more"] {
         let _ = write!(out, "  {lobe:<36}");
     }
     let _ = writeln!(out);
     for r in rows {
-        let _ = write!(out, "{:<12}{:>5}{:>6}{:>7}", r.model, r.at.beta, r.at.theta_deg, r.sigma_a);
+        let _ = write!(out, "{:<16}{:>5}{:>6}{:>7}", r.model, r.at.beta, r.at.theta_deg, r.sigma_a);
         for lobe in &r.lobes {
             let _ = write!(out, "  {:<36}", cell(lobe));
         }

@@ -45,6 +45,8 @@ pub mod cylinder;
 mod fibre;
 mod film;
 pub mod fresnel;
+#[cfg(test)]
+mod generator;
 pub mod ggx;
 mod kind;
 pub mod microfacet;

@@ -12,6 +12,7 @@ pub mod far_field;
 pub mod gaussian;
 mod inclination;
 pub mod longitudinal;
+pub mod medulla;
 pub mod roots;
 pub mod roughness;
 pub mod scale;

@@ -5,6 +5,7 @@ use crate::registry::models;
 mod banks_fibre;
 mod deon;
 mod elliptical_hair;
+mod fur;
 mod hair;
 mod kajiya_kay;
 mod lambert_fibre;
@@ -25,6 +26,7 @@ models! {
         DEon = deon::DEon, "deon";
         EllipticalHair = elliptical_hair::EllipticalHair, "elliptical_hair";
         MicrofacetHair = microfacet_hair::MicrofacetHair, "microfacet_hair";
+        Fur = fur::Fur, "fur";
         Hair = hair::Hair, "hair";
     }
 }

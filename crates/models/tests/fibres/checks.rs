@@ -9,6 +9,7 @@ use sparrow_models::cylinder::colour::{absorption_of_melanin, absorption_of_tuft
 use sparrow_models::cylinder::elliptic::Elliptic;
 use sparrow_models::cylinder::far_field::FarField;
 use sparrow_models::cylinder::longitudinal::Longitudinal;
+use sparrow_models::cylinder::medulla::chords;
 use sparrow_models::cylinder::roots::{self, Root};
 use sparrow_models::cylinder::section::{Section, dot};
 use sparrow_spectra::Spectrum;
@@ -28,6 +29,7 @@ pub(crate) fn all() -> Vec<&'static str> {
         colours(),
         samples(),
         ellipses(),
+        furs(),
     ]
     .concat()
 }
@@ -223,4 +225,16 @@ fn ellipses() -> Vec<&'static str> {
         }
     }
     traces.iter().chain(&densities).map(|r| r.0).collect()
+}
+
+/// Ways through cortex and medulla.
+fn furs() -> Vec<&'static str> {
+    let records = of("fur.chords.");
+    for (_, r) in &records {
+        let sin = input(r, "h") / 1.55;
+        let [cortex, medulla] = chords(input(r, "kappa"), [sin, (1.0 - sin * sin).sqrt()]);
+        check(r, &["s_cortex_total"], cortex);
+        check(r, &["s_medulla"], medulla);
+    }
+    records.iter().map(|r| r.0).collect()
 }
