@@ -8,9 +8,9 @@ use serde::Serialize;
 use sparrow_verify::reference_fibre::{LobeError, ModelError, against};
 
 use crate::args::VerifyArgs;
-use crate::console;
 use crate::failure::{DONE, Failure};
 use crate::verify_cmd::cores;
+use crate::{console, fibre_plot, paths};
 
 /// What `--json` prints.
 #[derive(Serialize)]
@@ -34,8 +34,15 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<u8, Failure> {
         }
     };
     let start = Instant::now();
+    let picture = args.plot.as_ref().map(|path| path.with_extension("svg"));
+    let files = picture.iter().flat_map(|svg| [svg.clone(), svg.with_extension("csv")]);
+    files.clone().try_for_each(|path| paths::check_writable(&path))?;
     let rows = against(args.samples as usize, args.seed, threads, &progress);
     let seconds = start.elapsed().as_secs_f64();
+    let figure = fibre_plot::draw(&rows, args.samples);
+    for (path, text) in files.zip([figure.svg, figure.table.csv()]) {
+        paths::write_whole(&path, text)?;
+    }
     if args.json {
         let outcome = Outcome { samples: args.samples, seed: args.seed, seconds, rows: &rows };
         let json = serde_json::to_string(&outcome)

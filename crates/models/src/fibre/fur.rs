@@ -169,7 +169,7 @@ impl Medullated {
         self.layers * f / (1.0 + (self.layers - 1.0) * f)
     }
     /// The mean reflectance of the cuticle for light that comes from the medulla evenly.
-    fn from_within(&self) -> f64 {
+    fn inner_reflectance(&self) -> f64 {
         let cosine = |k: usize, n: usize, most: f64| {
             let sin = most * (k as f64 + 0.5) / n as f64;
             ((1.0 - sin) * (1.0 + sin)).sqrt()
@@ -195,7 +195,7 @@ impl Medullated {
         let longer = 0.5 * inside.length / inside.gamma_t[1].max(1e-9);
         let missed = Real::exp(-self.sigma_s * s_m * longer);
         // What goes on nearly as before meets the cuticle as the ray does.
-        let F_s = lerp(self.from_within(), F, self.moments.along.clamp(0.0, 1.0));
+        let F_s = lerp(self.inner_reflectance(), F, self.moments.along.clamp(0.0, 1.0));
         let mut a = [Spectrum::ZERO; WAYS];
         for (k, (sigma_c, sigma_m)) in self.sigma_c.0.into_iter().zip(self.sigma_m.0).enumerate() {
             let T = missed * Real::exp(-(sigma_c * s_c + sigma_m * s_m) * longer);
