@@ -180,6 +180,8 @@ mod tests {
         let desc = CameraDesc {
             projection: Projection::Perspective { fov: 40.0 },
             to_world,
+            moves_to: None,
+            motion_times: [0.0, 1.0],
             screen_window: None,
             frame_aspect: None,
             lens_radius: 0.0,
@@ -194,7 +196,7 @@ mod tests {
         let camera = camera();
         let [world_to_camera, ndc] = matrices(&camera, [320, 200]);
         for pixel in [[0.0, 0.0], [320.0, 200.0], [31.5, 170.25]] {
-            let ray = camera.ray(pixel, [0.5; 2]);
+            let ray = camera.ray(pixel, [0.5; 2], 0.0);
             let p = ray.o + ray.d * 3.0;
             let on = |m: &Matrix| m.map(|r| r[0] * p.x + r[1] * p.y + r[2] * p.z + r[3]);
             let h = on(&ndc);

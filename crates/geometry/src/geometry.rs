@@ -8,7 +8,7 @@ use sparrow_math::{Aabb, Vec3};
 
 use crate::bvh::{Bvh, Kind, MAX_PRIMS, Others, PrimRef, RawHit};
 use crate::curve::Curves;
-use crate::instance::{Instance, Instances, World};
+use crate::instance::{Instance, Instances, MovingInstance, World};
 use crate::patch::Patches;
 use crate::point::{ShapeSample, SurfacePoint};
 use crate::quadric::Quadric;
@@ -221,6 +221,15 @@ impl Geometry {
         prototypes: Vec<Vec<ShapeInstance>>,
         instances: Vec<Instance>,
     ) -> Geometry {
+        Geometry::build_moving(shapes, prototypes, instances, Vec::new())
+    }
+    /// The same with instances that move, numbered on from those that do not. Rays meet them where they are at the rays' time.
+    pub fn build_moving(
+        shapes: Vec<ShapeInstance>,
+        prototypes: Vec<Vec<ShapeInstance>>,
+        instances: Vec<Instance>,
+        moving: Vec<MovingInstance>,
+    ) -> Geometry {
         let start = Instant::now();
         let sizes: Vec<usize> = prototypes.iter().map(Vec::len).collect();
         let n_world = shapes.len();
@@ -234,10 +243,12 @@ impl Geometry {
             dropped += lost;
             next += n;
         }
-        let mut instances = instances;
-        dropped += instances.len().saturating_sub(MAX_PRIMS - n_ids);
+        let (mut instances, mut moving) = (instances, moving);
+        let n_places = instances.len() + moving.len();
         instances.truncate(MAX_PRIMS - n_ids);
-        let (instances, first_instance) = (Instances::new(trees, instances), n_ids as u32);
+        moving.truncate(MAX_PRIMS - n_ids - instances.len());
+        dropped += n_places - instances.len() - moving.len();
+        let (instances, first_instance) = (Instances::new(trees, instances, moving), n_ids as u32);
         dropped += instances.refs(first_instance, &mut refs);
         let bvh = Bvh::build(refs, |id| bodies.corners(id));
         let n_prims = bodies.bodies.iter().map(Body::n_prims).sum::<usize>() + instances.len();
@@ -316,8 +327,12 @@ impl Geometry {
     /// Panics for a hit of another geometry, or returns nonsense.
     #[inline]
     pub fn surface(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
-        let Some(i) = hit.instance else { return self.local_surface(ray, hit) };
-        self.instances.surface(i, &self.local_surface(&self.instances.local_ray(i, ray), hit))
+        let there = hit.instance.map(|i| self.instances.at(i, ray.time));
+        let point = match there {
+            None => self.local_surface(ray, hit),
+            Some(placed) => placed.surface(&self.local_surface(&placed.ray(ray), hit)),
+        };
+        SurfacePoint { time: ray.time, ..point }
     }
     /// The surface in the space of the shape.
     #[inline]
@@ -338,9 +353,9 @@ impl Geometry {
     /// Few materials ask for them, so they are not part of [`SurfacePoint`]. Zero for curves.
     pub fn normal_derivatives(&self, ray: &Ray, hit: &Hit) -> (Vec3<f32>, Vec3<f32>) {
         if let Some(i) = hit.instance {
-            let local = Hit { instance: None, ..*hit };
-            let (u, v) = self.normal_derivatives(&self.instances.local_ray(i, ray), &local);
-            return (self.instances.normal(i, u), self.instances.normal(i, v));
+            let (placed, local) = (self.instances.at(i, ray.time), Hit { instance: None, ..*hit });
+            let (u, v) = self.normal_derivatives(&placed.ray(ray), &local);
+            return (placed.normal(u), placed.normal(v));
         }
         match &self.bodies.bodies[hit.shape as usize] {
             Body::Triangles(m) => m.normal_derivatives(hit),

@@ -1,9 +1,9 @@
-//! Groups of shapes that stand in many places: [`Instance`], [`Instances`].
+//! Groups of shapes that stand in many places, or move: [`Instance`], [`MovingInstance`], [`Instances`].
 
 use core::cell::Cell;
 
 use rayon::prelude::*;
-use sparrow_math::{Aabb, Vec3, vec3};
+use sparrow_math::{Aabb, Motion, Vec3, vec3};
 
 use crate::bvh::{Bvh, Kind, Others, PrimRef, RawHit, gamma};
 use crate::point::SurfacePoint;
@@ -16,6 +16,15 @@ pub struct Instance {
     /// an inverse.
     pub to_world: [[f32; 4]; 3],
     /// Number of the prototype, in the order given to [`Geometry::build_instanced`](crate::Geometry::build_instanced).
+    pub prototype: u32,
+}
+
+/// A prototype that moves.
+#[derive(Clone, Copy, Debug)]
+pub struct MovingInstance {
+    /// World space from the prototype's space.
+    pub motion: Motion,
+    /// Number of the prototype, as for [`Instance`].
     pub prototype: u32,
 }
 
@@ -61,16 +70,21 @@ fn inverse(m: &Rows<f64>) -> Option<Rows<f64>> {
 
 /// An instance as rays need it.
 #[derive(Clone, Copy, Debug)]
-struct Placed {
+pub(crate) struct Placed {
     /// The prototype's space from world space. It alone says where the instance is: both ways are worked out from it.
     to_local: Rows<f32>,
     prototype: u32,
 }
 
 impl Placed {
+    /// Where there is no inverse there is no box either, which keeps the instance out of the tree.
+    fn new(to_world: &Rows<f64>, prototype: u32) -> Placed {
+        let to_local = inverse(to_world).map_or([[f32::NAN; 4]; 3], |m| m.map(|r| r.map(|x| x as f32)));
+        Placed { to_local, prototype }
+    }
     /// The ray in the prototype's space, with the same parameter along it.
     #[inline]
-    fn ray(&self, ray: &Ray) -> Ray {
+    pub(crate) fn ray(&self, ray: &Ray) -> Ray {
         let [x, y, z] = &self.to_local;
         let (o, d) = (ray.o, ray.d);
         let point = |r: &[f32; 4]| r[0] * o.x + r[1] * o.y + r[2] * o.z + r[3];
@@ -91,12 +105,14 @@ impl Placed {
         };
         let around = (0..8).map(corner).fold(Aabb::EMPTY, Aabb::grow);
         // A ray is mapped with rounding errors as large as its origin is far: here, as far as the box.
-        let pad = around.lo.abs().max(around.hi.abs()) * gamma(8) + around.extent() * gamma(8);
-        let (lo, hi) = (around.lo - pad, around.hi + pad);
-        (lo.is_finite() && hi.is_finite() && !b.is_empty()).then_some(Aabb { lo, hi })
+        padded(&around, 8).filter(|_| !b.is_empty())
+    }
+    /// Maps a normal of the prototype to world space. The length changes.
+    pub(crate) fn normal(&self, n: Vec3<f32>) -> Vec3<f32> {
+        normal(&self.both().0, n).to_f32()
     }
     /// A surface point of the prototype, brought to world space.
-    fn surface(&self, s: &SurfacePoint) -> SurfacePoint {
+    pub(crate) fn surface(&self, s: &SurfacePoint) -> SurfacePoint {
         let (to_local, Some(to_world)) = self.both() else { return *s };
         let normal = |n: Vec3<f32>| normal(&to_local, n).normalized().to_f32();
         let along = |v: Vec3<f32>| vector(&to_world, v.to_f64()).to_f32();
@@ -118,28 +134,47 @@ impl Placed {
     }
 }
 
+/// A box with room for `n` roundings in a row of numbers as large as its corners; `None` where it is not finite.
+fn padded(b: &Aabb, n: u32) -> Option<Aabb> {
+    let pad = (b.lo.abs().max(b.hi.abs()) + b.extent()) * gamma(n);
+    let (lo, hi) = (b.lo - pad, b.hi + pad);
+    (lo.is_finite() && hi.is_finite()).then_some(Aabb { lo, hi })
+}
+
+impl MovingInstance {
+    fn at(&self, time: f32) -> Placed {
+        Placed::new(&self.motion.at(f64::from(time)), self.prototype)
+    }
+    /// The box around all places of a box in the prototype's space; `None` where it is not finite.
+    fn bounds(&self, b: &Aabb) -> Option<Aabb> {
+        // The way back is rounded anew at every time, on top of the roundings of a ray that is mapped.
+        padded(&self.motion.bounds(b), 64).filter(|_| !b.is_empty())
+    }
+}
+
 /// All instances of a geometry and the trees of their prototypes. In the tree over everything an instance is one primitive.
 #[derive(Debug, Default)]
 pub(crate) struct Instances {
     prototypes: Vec<Bvh>,
     placed: Vec<Placed>,
+    moving: Vec<MovingInstance>,
 }
 
 impl Instances {
-    pub(crate) fn new(prototypes: Vec<Bvh>, instances: Vec<Instance>) -> Instances {
-        let place = |i: Instance| {
-            let to_local = inverse(&i.to_world.map(|r| r.map(f64::from)));
-            // A map without inverse has no box either, which keeps it out of the tree.
-            let to_local = to_local.map_or([[f32::NAN; 4]; 3], |m| m.map(|r| r.map(|x| x as f32)));
-            Placed { to_local, prototype: i.prototype }
-        };
-        Instances { prototypes, placed: instances.into_par_iter().map(place).collect() }
+    pub(crate) fn new(
+        prototypes: Vec<Bvh>,
+        instances: Vec<Instance>,
+        moving: Vec<MovingInstance>,
+    ) -> Instances {
+        let place = |i: Instance| Placed::new(&i.to_world.map(|r| r.map(f64::from)), i.prototype);
+        Instances { prototypes, placed: instances.into_par_iter().map(place).collect(), moving }
     }
     pub(crate) fn len(&self) -> usize {
-        self.placed.len()
+        self.placed.len() + self.moving.len()
     }
     pub(crate) fn bytes(&self) -> usize {
-        self.prototypes.iter().map(Bvh::bytes).sum::<usize>() + self.placed.len() * size_of::<Placed>()
+        let trees = self.prototypes.iter().map(Bvh::bytes).sum::<usize>();
+        trees + size_of_val(&*self.placed) + size_of_val(&*self.moving)
     }
     pub(crate) fn n_nodes(&self) -> usize {
         self.prototypes.iter().map(Bvh::n_nodes).sum()
@@ -148,24 +183,26 @@ impl Instances {
     pub(crate) fn refs(&self, first: u32, out: &mut Vec<PrimRef>) -> usize {
         let before = out.len();
         let one = |i: u32| {
-            let placed = &self.placed[i as usize];
-            let b = placed.bounds(&self.prototypes.get(placed.prototype as usize)?.bounds())?;
+            let of = |prototype: u32| self.prototypes.get(prototype as usize).map(Bvh::bounds);
+            let b = match self.placed.get(i as usize) {
+                Some(placed) => placed.bounds(&of(placed.prototype)?)?,
+                None => {
+                    let moving = &self.moving[i as usize - self.placed.len()];
+                    moving.bounds(&of(moving.prototype)?)?
+                }
+            };
             Some(PrimRef::new(first + i, b, Kind::Others))
         };
         out.par_extend((0..self.len() as u32).into_par_iter().filter_map(one));
         self.len() - (out.len() - before)
     }
-    /// A ray as the instance sees it.
-    pub(crate) fn local_ray(&self, instance: u32, ray: &Ray) -> Ray {
-        self.placed[instance as usize].ray(ray)
-    }
-    /// Maps a normal of the instance's prototype to world space. The length changes.
-    pub(crate) fn normal(&self, instance: u32, n: Vec3<f32>) -> Vec3<f32> {
-        normal(&self.placed[instance as usize].both().0, n).to_f32()
-    }
-    /// A surface point that the instance's prototype gave, brought to world space.
-    pub(crate) fn surface(&self, instance: u32, s: &SurfacePoint) -> SurfacePoint {
-        self.placed[instance as usize].surface(s)
+    /// An instance where it is at `time`.
+    #[inline]
+    pub(crate) fn at(&self, instance: u32, time: f32) -> Placed {
+        match self.placed.get(instance as usize) {
+            Some(placed) => *placed,
+            None => self.moving[instance as usize - self.placed.len()].at(time),
+        }
     }
 }
 
@@ -182,7 +219,7 @@ impl<O: Others> Others for World<'_, O> {
     #[inline]
     fn hit(&self, id: u32, ray: &Ray, t_max: f32, found: &mut impl FnMut(RawHit) -> f32) -> f32 {
         let Some(i) = id.checked_sub(self.first) else { return self.others.hit(id, ray, t_max, found) };
-        let placed = &self.instances.placed[i as usize];
+        let placed = self.instances.at(i, ray.time);
         let Some(tree) = self.instances.prototypes.get(placed.prototype as usize) else { return t_max };
         let local = Ray { t_max, ..placed.ray(ray) };
         self.current.set(Some(i));

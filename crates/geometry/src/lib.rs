@@ -19,7 +19,7 @@ mod simd;
 mod triangle;
 
 pub use geometry::{BuildStats, Geometry};
-pub use instance::Instance;
+pub use instance::{Instance, MovingInstance};
 pub use point::{ShapeSample, SurfacePoint};
 pub use ray::{Hit, Ray};
 pub use shape::{BilinearMesh, CurveBasis, CurveKind, CurveSet, Shape, ShapeInstance, TriangleMesh};

@@ -30,6 +30,8 @@ pub struct SurfacePoint {
     pub shape: u32,
     /// Number of the primitive in its shape.
     pub prim: u32,
+    /// When the ray met it; rays that leave it have the same time.
+    pub time: f32,
 }
 
 /// Adding this part of a number to its magnitude gives the next number, taking it away the one before: it is a little
@@ -65,6 +67,7 @@ impl SurfacePoint {
             tangent: zero,
             shape: hit.shape,
             prim: hit.prim,
+            time: ray.time,
         }
     }
     /// Offset across the fibre, in [-1, 1], for points of curves: the sine of the angle from the direction the ray came
@@ -76,20 +79,20 @@ impl SurfacePoint {
     /// The ray that leaves in direction `d` and does not meet its own surface again through rounding.
     #[inline]
     pub fn spawn(&self, d: Vec3<f32>) -> Ray {
-        Ray::new(offset_point(self.p, self.p_error, self.ng, d), d)
+        Ray { time: self.time, ..Ray::new(offset_point(self.p, self.p_error, self.ng, d), d) }
     }
     /// The shadow ray to a point in space; it ends just before.
     #[inline]
     pub fn spawn_to(&self, p: Vec3<f32>) -> Ray {
         let o = offset_point(self.p, self.p_error, self.ng, p - self.p);
-        Ray { o, d: p - o, t_max: 1.0 - SHADOW_GAP }
+        Ray { o, d: p - o, t_max: 1.0 - SHADOW_GAP, time: self.time }
     }
     /// The shadow ray to a point of another surface; it ends just before, and beside that surface's rounding error.
     #[inline]
     pub fn spawn_to_sample(&self, s: &ShapeSample) -> Ray {
         let o = offset_point(self.p, self.p_error, self.ng, s.p - self.p);
         let p = offset_point(s.p, s.p_error, s.n, o - s.p);
-        Ray { o, d: p - o, t_max: 1.0 - SHADOW_GAP }
+        Ray { o, d: p - o, t_max: 1.0 - SHADOW_GAP, time: self.time }
     }
 }
 

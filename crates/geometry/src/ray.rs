@@ -11,13 +11,15 @@ pub struct Ray {
     pub d: Vec3<f32>,
     /// Where it ends, in units of `d`; the end does not belong to it.
     pub t_max: f32,
+    /// When: 0 where motion starts, 1 where it ends.
+    pub time: f32,
 }
 
 impl Ray {
-    /// A ray without end.
+    /// A ray without end, at time 0.
     #[inline]
     pub fn new(o: Vec3<f32>, d: Vec3<f32>) -> Ray {
-        Ray { o, d, t_max: f32::INFINITY }
+        Ray { o, d, t_max: f32::INFINITY, time: 0.0 }
     }
     /// The point at parameter `t`.
     #[inline]

@@ -184,6 +184,7 @@ impl Triangles {
             tangent,
             shape: hit.shape,
             prim: hit.prim,
+            time: 0.0,
         }
     }
 

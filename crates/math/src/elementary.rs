@@ -17,10 +17,10 @@ pub fn poly<R: Real, const K: usize>(x: R, c: [f64; K]) -> R {
     y
 }
 
-/// `e^x`, the argument clamped to [-87, 88].
+/// `e^x`, at most e^88; exactly zero below -87.7, where single precision has no normal numbers left: slow denormal ones stay rare.
 #[inline(always)]
 pub fn exp<R: Real>(x: R) -> R {
-    let x = x.clamp(R::of(-87.0), R::of(88.0));
+    let x = x.clamp(R::of(-88.0), R::of(88.0));
     let n = (x * R::of(LOG2_E)).round();
     let r = n.fma(R::of(-0.693_359_375), x);
     let r = n.fma(R::of(2.121_944_4e-4), r);
@@ -108,13 +108,20 @@ pub fn atan2<R: Real>(y: R, x: R) -> R {
     r.copysign(y)
 }
 
-/// `e^-x I_0(x)` for `x >= 0`. [AbramowitzStegun, 9.8.1, 9.8.2]
+/// `e^-x I_0(x)` for `x >= 0`.
 #[inline(always)]
 pub fn i0e<R: Real>(x: R) -> R {
+    let (m, k) = i0e_parts(x);
+    m * k.exp()
+}
+
+/// `m` and `k` with `e^-x I_0(x) = m e^k` for `x >= 0`, `k` not above zero. [AbramowitzStegun, 9.8.1, 9.8.2]
+#[inline(always)]
+pub fn i0e_parts<R: Real>(x: R) -> (R, R) {
     let t = (x * R::of(1.0 / 3.75)).sqr();
-    let small = poly(t, [0.0045813, 0.0360768, 0.2659732, 1.2067492, 3.0899424, 3.5156229, 1.0]) * (-x).exp();
-    let xl = x.max(R::of(3.75));
-    let t = R::of(3.75) / xl;
+    let small = poly(t, [0.0045813, 0.0360768, 0.2659732, 1.2067492, 3.0899424, 3.5156229, 1.0]);
+    let inv_sqrt = R::ONE / x.max(R::of(3.75)).sqrt();
+    let t = R::of(3.75) * inv_sqrt.sqr();
     let large = poly(
         t,
         [
@@ -128,6 +135,7 @@ pub fn i0e<R: Real>(x: R) -> R {
             0.01328592,
             0.39894228,
         ],
-    ) / xl.sqrt();
-    R::select(x.lt(R::of(3.75)), small, large)
+    ) * inv_sqrt;
+    let narrow = x.lt(R::of(3.75));
+    (R::select(narrow, small, large), (-x).only_where(narrow))
 }

@@ -149,6 +149,11 @@ pub trait Real:
     fn i0e(self) -> Self {
         elementary::i0e(self)
     }
+    /// `m` and `k` with `e^-x I_0(x) = m e^k`, for products with other exponentials: one exponential is enough for both.
+    #[inline(always)]
+    fn i0e_parts(self) -> (Self, Self) {
+        elementary::i0e_parts(self)
+    }
 
     /// `self^2`
     #[inline(always)]
@@ -385,5 +390,9 @@ impl Real for f64 {
     #[inline]
     fn i0e(self) -> f64 {
         double::i0e(self)
+    }
+    #[inline]
+    fn i0e_parts(self) -> (f64, f64) {
+        (double::i0e(self), 0.0)
     }
 }

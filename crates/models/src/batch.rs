@@ -133,6 +133,18 @@ const fn counts(table: &[ParamInfo]) -> (usize, usize) {
     (reals, spectra)
 }
 
+impl ParamColumns<'_> {
+    /// No parameter differs between points; the offset `h` may.
+    fn constant(&self) -> bool {
+        let spectra = self.spectra.iter().flatten();
+        self.reals.iter().chain(spectra).chain(&self.lambda).all(|column| column.len() <= 1)
+    }
+    /// Points from the first of `range` on that surely share their parameters: whole lanes.
+    fn shared(&self, range: &Range<usize>, lanes: usize) -> usize {
+        if self.constant() { range.len().max(lanes) } else { lanes }
+    }
+}
+
 /// Reads the columns that the model's table names; others cost nothing.
 #[inline(always)]
 fn block<R: Real, M: Model<R>>(p: &ParamColumns<'_>, i: usize) -> ParamBlock<R> {
@@ -206,9 +218,14 @@ impl<F: Family> InLanes for Eval<'_, '_, F> {
     type Output = ();
     #[inline(always)]
     fn run<R: Real>(self) {
-        for i in self.range.step_by(R::WIDTH) {
-            let model = F::Of::<R>::new(&block::<R, F::Of<R>>(self.p, i));
-            self.out.put(F::f_cos_pdf(&model, dir(self.wo, i), dir(self.wi, i)), i);
+        let shared = self.p.shared(&self.range, R::WIDTH);
+        for first in self.range.step_by(shared) {
+            // What depends on shared parameters alone is computed before this loop.
+            let block = block::<R, F::Of<R>>(self.p, first);
+            for i in (first..first + shared).step_by(R::WIDTH) {
+                let model = F::Of::<R>::new(&ParamBlock { h: value(self.p.h, i), ..block });
+                self.out.put(F::f_cos_pdf(&model, dir(self.wo, i), dir(self.wi, i)), i);
+            }
         }
     }
 }
@@ -227,9 +244,13 @@ impl<F: Family> InLanes for Draw<'_, '_, F> {
     #[inline(always)]
     fn run<R: Real>(self) {
         let (u, out) = (self.u, self.out);
-        for i in self.range.step_by(R::WIDTH) {
-            let model = F::Of::<R>::new(&block::<R, F::Of<R>>(self.p, i));
-            out.put(F::sample(&model, dir(self.wo, i), uniforms(u, i)), i);
+        let shared = self.p.shared(&self.range, R::WIDTH);
+        for first in self.range.step_by(shared) {
+            let block = block::<R, F::Of<R>>(self.p, first);
+            for i in (first..first + shared).step_by(R::WIDTH) {
+                let model = F::Of::<R>::new(&ParamBlock { h: value(self.p.h, i), ..block });
+                out.put(F::sample(&model, dir(self.wo, i), uniforms(u, i)), i);
+            }
         }
     }
 }

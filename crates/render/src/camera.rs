@@ -1,22 +1,42 @@
 //! Cameras: from a point on the film and one on the lens to a ray.
 
 use sparrow_geometry::Ray;
-use sparrow_math::{Real, Transform, Vec3, vec3, warp};
+use sparrow_math::{Motion, Real, Transform, Vec3, vec3, warp};
 use sparrow_scene::{CameraDesc, Projection};
 
 /// A perspective or orthographic camera with a thin lens.
 #[derive(Clone, Debug)]
 pub struct Camera {
     to_world: Transform,
-    /// Columns of the camera-to-world map, in single precision.
-    axes: [Vec3<f32>; 3],
-    origin: Vec3<f32>,
+    /// Where it stands while nothing moves.
+    frame: CameraFrame,
+    motion: Option<Motion>,
+    /// Motion time when the shutter opens and closes.
+    shutter: [f32; 2],
     /// Film position to the plane z = 1 (perspective) or z = 0 (orthographic): offset and step per pixel.
     corner: [f32; 2],
     step: [f32; 2],
     perspective: bool,
     lens_radius: f32,
     focal_distance: f32,
+}
+
+/// Columns of the camera-to-world map, in single precision.
+#[derive(Clone, Copy, Debug)]
+struct CameraFrame {
+    axes: [Vec3<f32>; 3],
+    origin: Vec3<f32>,
+}
+
+impl CameraFrame {
+    /// From rows, the translation in the fourth column.
+    fn new(rows: &[[f64; 4]]) -> CameraFrame {
+        let column = |j: usize| vec3(rows[0][j], rows[1][j], rows[2][j]).to_f32();
+        CameraFrame { axes: [column(0), column(1), column(2)], origin: column(3) }
+    }
+    fn turn(&self, v: Vec3<f32>) -> Vec3<f32> {
+        self.axes[0] * v.x + self.axes[1] * v.y + self.axes[2] * v.z
+    }
 }
 
 impl Camera {
@@ -33,11 +53,13 @@ impl Camera {
             Projection::Perspective { fov } => (true, Real::tan(f64::from(fov).to_radians() / 2.0) as f32),
             Projection::Orthographic => (false, 1.0),
         };
-        let axis = |v| desc.to_world.vector(v).to_f32();
+        let [start, end] = desc.motion_times;
+        let motion_time = |t: f32| ((f64::from(t) - start) / (end - start)).clamp(0.0, 1.0) as f32;
         Camera {
             to_world: desc.to_world,
-            axes: [axis(vec3(1.0, 0.0, 0.0)), axis(vec3(0.0, 1.0, 0.0)), axis(vec3(0.0, 0.0, 1.0))],
-            origin: desc.to_world.point(vec3(0.0, 0.0, 0.0)).to_f32(),
+            frame: CameraFrame::new(desc.to_world.rows()),
+            motion: desc.moves_to.and_then(|end| Motion::new(&desc.to_world, &end)),
+            shutter: desc.shutter.map(motion_time),
             corner: [x0 * scale, y1 * scale],
             step: [(x1 - x0) * scale / width, (y0 - y1) * scale / height],
             perspective,
@@ -46,7 +68,7 @@ impl Camera {
         }
     }
 
-    /// Camera space to world.
+    /// Camera space to world, where motion starts.
     pub fn to_world(&self) -> &Transform {
         &self.to_world
     }
@@ -76,8 +98,16 @@ impl Camera {
         }
     }
 
-    /// The ray through `film`, in pixels from the top left corner, and the point of the lens that `lens` chooses.
-    pub fn ray(&self, film: [f32; 2], lens: [f32; 2]) -> Ray {
+    /// The motion time that a uniform number chooses while the shutter is open: 0 where motion starts, 1 where it ends.
+    pub fn time(&self, u: f32) -> f32 {
+        let [open, close] = self.shutter;
+        open + (close - open) * u
+    }
+
+    /// The ray through `film`, in pixels from the top left corner, and the point of the lens that `lens` chooses, at a motion time.
+    pub fn ray(&self, film: [f32; 2], lens: [f32; 2], time: f32) -> Ray {
+        let frame = self.motion.as_ref().map(|m| CameraFrame::new(&m.at(f64::from(time))));
+        let frame = frame.as_ref().unwrap_or(&self.frame);
         let x = self.corner[0] + film[0] * self.step[0];
         let y = self.corner[1] + film[1] * self.step[1];
         let (mut o, mut d) = if self.perspective {
@@ -91,11 +121,7 @@ impl Camera {
             o += vec3(u, v, 0.0) * self.lens_radius;
             d = (focus - o).normalized();
         }
-        Ray { o: self.origin + self.turn(o), d: self.turn(d).normalized(), t_max: f32::INFINITY }
-    }
-
-    fn turn(&self, v: Vec3<f32>) -> Vec3<f32> {
-        self.axes[0] * v.x + self.axes[1] * v.y + self.axes[2] * v.z
+        Ray { time, ..Ray::new(frame.origin + frame.turn(o), frame.turn(d).normalized()) }
     }
 
     /// How far the point `p` with normal `n` moves on its tangent plane for one pixel along x and y of the film.
@@ -103,7 +129,8 @@ impl Camera {
     /// An estimate for points seen through any number of bounces: the pinhole camera is turned to look at `p`, as in
     /// pbrt-v4. `spacing` is the distance between samples, in pixels.
     pub fn footprint(&self, p: Vec3<f32>, n: Vec3<f32>, spacing: f32) -> [Vec3<f32>; 2] {
-        let to_p = p - self.origin;
+        let CameraFrame { axes, origin } = &self.frame;
+        let to_p = p - *origin;
         let distance = to_p.length();
         let slant = (to_p.dot(n) / distance.max(1e-20)).abs().max(0.05);
         let pixel = |axis: Vec3<f32>, step: f32| {
@@ -113,7 +140,7 @@ impl Camera {
             let view = to_p * (1.0 / distance.max(1e-20));
             s - view * (s.dot(n) / (slant * view.dot(n).signum()))
         };
-        [pixel(self.axes[0], self.step[0]), pixel(self.axes[1], self.step[1])]
+        [pixel(axes[0], self.step[0]), pixel(axes[1], self.step[1])]
     }
 }
 
@@ -125,6 +152,8 @@ mod tests {
         CameraDesc {
             projection,
             to_world: Transform::IDENTITY,
+            moves_to: None,
+            motion_times: [0.0, 1.0],
             screen_window: None,
             frame_aspect: None,
             lens_radius: 0.0,
@@ -136,9 +165,9 @@ mod tests {
     #[test]
     fn field_of_view_spans_the_shorter_side() {
         let c = Camera::new(&desc(Projection::Perspective { fov: 90.0 }), [200, 100]);
-        let top = c.ray([100.0, 0.0], [0.5; 2]);
+        let top = c.ray([100.0, 0.0], [0.5; 2], 0.0);
         assert!((top.d.y - top.d.z).abs() < 1e-6 && top.d.x.abs() < 1e-6);
-        let left = c.ray([0.0, 50.0], [0.5; 2]);
+        let left = c.ray([0.0, 50.0], [0.5; 2], 0.0);
         assert!((left.d.x + 2.0 * left.d.z).abs() < 1e-6);
     }
 
@@ -147,13 +176,27 @@ mod tests {
         for projection in [Projection::Perspective { fov: 35.0 }, Projection::Orthographic] {
             let c = Camera::new(&desc(projection), [320, 200]);
             let m = c.film_from_camera();
-            let ray = c.ray([31.5, 170.25], [0.5; 2]);
+            let ray = c.ray([31.5, 170.25], [0.5; 2], 0.0);
             let p = (ray.o + ray.d * 7.0).to_f64();
             let h = m.map(|r| r[0] * p.x + r[1] * p.y + r[2] * p.z + r[3]);
             let [x, y, z] = [0, 1, 2].map(|i| h[i] / h[3]);
             assert!((x - 31.5).abs() < 1e-3 && (y - 170.25).abs() < 1e-3, "{projection:?}: {x} {y}");
             assert!(0.0 < z && z < 1.0, "{projection:?}: {z}");
         }
+    }
+
+    #[test]
+    fn a_moving_camera_is_where_its_time_says() {
+        let d = CameraDesc {
+            moves_to: Some(Transform::translate(vec3(4.0, 0.0, 0.0))),
+            motion_times: [1.0, 3.0],
+            shutter: [0.0, 2.0],
+            ..desc(Projection::Orthographic)
+        };
+        let c = Camera::new(&d, [64, 64]);
+        let x = |u| c.ray([32.0, 32.0], [0.5; 2], c.time(u)).o.x;
+        // Motion starts when the shutter has been open for half of its time, and is half done when it closes.
+        assert!(x(0.0).abs() < 1e-6 && (x(0.5) - 1.0).abs() < 1e-6 && (x(1.0) - 2.0).abs() < 1e-6);
     }
 
     #[test]
@@ -165,7 +208,7 @@ mod tests {
         };
         let c = Camera::new(&d, [64, 64]);
         let at = |u| {
-            let r = c.ray([10.0, 20.0], u);
+            let r = c.ray([10.0, 20.0], u, 0.0);
             r.o + r.d * ((4.0 - r.o.z) / r.d.z)
         };
         let p = at([0.5, 0.5]);

@@ -192,17 +192,19 @@ impl Shared<'_> {
         Ok(())
     }
 
-    /// One camera sample: wavelengths, place on film and lens, radiance, film.
+    /// One camera sample: wavelengths, time, place on film and lens, radiance, film.
     #[inline]
     fn sample(&self, pixel: [u32; 2], sample: u32, tile: &mut FilmTile, rays: &mut RayCounts) {
         let plan = self.plan;
         let [x, y] = [pixel[0] + plan.bounds[0], pixel[1] + plan.bounds[2]];
         let mut sampler = plan.sampler.start([x, y], sample);
         let mut lambda = Wavelengths::sample_visible(sampler.get_1d());
+        let time = if self.scene.moves { self.scene.camera.time(sampler.get_1d()) } else { 0.0 };
         let f = plan.filter.sample(sampler.get_pixel_2d());
         sampler.set_dimension(2);
         let lens = sampler.get_2d();
-        let ray = self.scene.camera.ray([x as f32 + 0.5 + f.offset[0], y as f32 + 0.5 + f.offset[1]], lens);
+        let film = [x as f32 + 0.5 + f.offset[0], y as f32 + 0.5 + f.offset[1]];
+        let ray = self.scene.camera.ray(film, lens, time);
         let l = plan.integrator.radiance(self.scene, ray, &mut lambda, &mut sampler, rays);
         rays.camera += 1;
         rays.scattered -= 1;

@@ -26,6 +26,8 @@ pub struct Scene {
     pub(crate) camera: Camera,
     /// Some shape has a cut-out or is passed unchanged, so that hits must be asked about.
     pub(crate) asks_hits: bool,
+    /// The camera or something in the scene moves.
+    pub(crate) moves: bool,
     /// Distance between samples on the film, in pixels, for the width of texture filters.
     pub(crate) sample_spacing: f32,
     /// Some texture filter asks for that width.

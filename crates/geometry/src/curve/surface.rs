@@ -58,6 +58,7 @@ impl Curves {
             tangent: t.to_f32(),
             shape: hit.shape,
             prim: hit.prim,
+            time: 0.0,
         }
     }
 

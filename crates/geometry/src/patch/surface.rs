@@ -130,6 +130,7 @@ impl Patches {
             dpdu,
             dpdv,
             uv: self.uv(prim, u, v),
+            time: 0.0,
             tangent,
             shape: hit.shape,
             prim,

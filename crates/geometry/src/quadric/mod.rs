@@ -159,6 +159,7 @@ impl Quadric {
             tangent: dpdu,
             shape: hit.shape,
             prim: hit.prim,
+            time: 0.0,
         }
     }
     /// Derivatives of the normal by the texture coordinates.

@@ -132,7 +132,7 @@ fn rays_without_meaning_find_nothing_and_end() {
     }
     assert!(g.intersect(&Ray::new(o, Vec3::splat(0.0))).is_none());
     for t_max in [0.0, -1.0, f32::NAN, f32::NEG_INFINITY] {
-        assert!(!g.occluded(&Ray { o, d, t_max }));
+        assert!(!g.occluded(&Ray { o, d, t_max, time: 0.0 }));
     }
 }
 

@@ -1,7 +1,7 @@
 //! Instances against the same shapes copied out.
 
-use sparrow_geometry::{Geometry, Instance, Ray, Shape, ShapeInstance, TriangleMesh};
-use sparrow_math::{Transform, Vec3, vec3};
+use sparrow_geometry::{Geometry, Instance, MovingInstance, Ray, Shape, ShapeInstance, TriangleMesh};
+use sparrow_math::{Motion, Transform, Vec3, vec3};
 
 use super::rays::ball;
 use super::{Rng, at, placed, sphere, triangles};
@@ -144,4 +144,49 @@ fn odd_instances_are_dropped() {
     });
     let found: Vec<_> = found.collect();
     assert!(found.len() > 100 && found.iter().all(|h| h.instance == Some(5)));
+}
+
+/// At any time a moving instance is met as one that stands where it is then.
+#[test]
+fn moving_instances_agree_with_standing_ones() {
+    let mut rng = Rng(34);
+    let prototypes = || {
+        let mut rng = Rng(35);
+        vec![vec![triangles(&mut rng, 40, 0.6), placed(sphere(0.4))]]
+    };
+    let motions: Vec<Motion> = (0..8)
+        .map(|k| Motion::new(&space(&mut rng, 3 * (k % 2)), &space(&mut rng, 3 * (k % 2) + 6)).unwrap())
+        .collect();
+    let moving = motions.iter().map(|&motion| MovingInstance { motion, prototype: 0 }).collect();
+    let moving = Geometry::build_moving(vec![], prototypes(), vec![], moving);
+    let (mut hits, mut wrong) = (0, 0);
+    for step in 0..=20 {
+        let time = step as f32 / 20.0;
+        let standing = |m: &Motion| Instance {
+            to_world: m.at(f64::from(time)).map(|r| r.map(|x| x as f32)),
+            prototype: 0,
+        };
+        let standing =
+            Geometry::build_instanced(vec![], prototypes(), motions.iter().map(standing).collect());
+        for _ in 0..1000 {
+            let o = Vec3::from(rng.point()) * 2.5;
+            let ray = Ray { time, ..Ray::new(o, Vec3::from(rng.point()) - o) };
+            let (a, b) = (moving.intersect(&ray), standing.intersect(&ray));
+            assert_eq!(a.is_some(), moving.occluded(&ray), "{ray:?}");
+            let (Some(a), Some(b)) = (a, b) else {
+                wrong += u32::from(a.is_some() != b.is_some());
+                continue;
+            };
+            hits += 1;
+            if (a.instance, a.prim) != (b.instance, b.prim) {
+                wrong += 1;
+                continue;
+            }
+            let (s, r) = (moving.surface(&ray, &a), standing.surface(&ray, &b));
+            assert!((s.p - r.p).length() < 1e-4 && s.ng.cross(r.ng).length() < 1e-3, "{s:?} {r:?}");
+            assert!(s.time == time && s.spawn(ray.d).time == time && s.spawn_to(ray.o).time == time);
+        }
+    }
+    // A ray near an edge or silhouette may go either way.
+    assert!(hits > 2000 && wrong <= 5, "{wrong} of {hits} wrong");
 }

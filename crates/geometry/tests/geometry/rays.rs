@@ -174,7 +174,7 @@ fn rays_are_open() {
     for g in [&disk, &triangle] {
         for _ in 0..100 {
             let (x, y) = (rng.between(-0.2, 0.2), rng.between(-0.2, 0.2));
-            let up = Ray { o: vec3(x, y, 1.0), d: vec3(0.0, 0.0, 0.5), t_max: 2.0 };
+            let up = Ray { o: vec3(x, y, 1.0), d: vec3(0.0, 0.0, 0.5), t_max: 2.0, time: 0.0 };
             assert!(!g.occluded(&up));
             assert!(g.occluded(&Ray { t_max: 2.0_f32.next_up(), ..up }));
             assert!(!g.occluded(&Ray::new(vec3(x, y, 2.0), vec3(0.1, 0.0, 1.0))));

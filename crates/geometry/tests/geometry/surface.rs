@@ -143,7 +143,7 @@ fn points_lie_on_their_surfaces() {
         let (above, below) = (s.spawn(s.ng), s.spawn(-s.ng));
         assert!((above.o - s.p).dot(s.ng) > 0.0 && (below.o - s.p).dot(s.ng) < 0.0);
         assert!((above.o - s.p).length() < 2e-5, "{s:?}");
-        let back = Ray { o: above.o, d: below.o - above.o, t_max: 1.0 };
+        let back = Ray { o: above.o, d: below.o - above.o, t_max: 1.0, time: 0.0 };
         assert!(g.occluded(&back), "the surface lies between: {s:?}");
         assert!((s.ns.length() - 1.0).abs() < 1e-5 && s.dpdu.is_finite());
         let (dndu, dndv) = g.normal_derivatives(&ray, &hit);

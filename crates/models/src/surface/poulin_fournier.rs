@@ -94,7 +94,8 @@ impl<R: Real> PoulinFournier<R> {
     fn along(&self, o: &Section<R>, i: &Section<R>) -> R {
         let (c, s) = (o.cos_theta * i.cos_theta, o.sin_theta * i.sin_theta);
         let norm = self.v * (R::ONE - (R::of(-2.0) / self.v).exp());
-        ((c - s - R::ONE) / self.v).exp() * (c / self.v).i0e() / norm
+        let (m, k) = (c / self.v).i0e_parts();
+        m * ((c - s - R::ONE) / self.v + k).exp() / norm
     }
 
     /// Probability of the diffuse lobe.

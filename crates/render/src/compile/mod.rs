@@ -37,9 +37,10 @@ pub fn compile(mut desc: SceneDesc) -> Result<Compiled, CompileError> {
     let mut textures = Textures::new(&desc, &mut faults);
     let (materials, index) = compile_materials(&desc, &mut textures, &mut faults);
     let is_seen = |s: &ShapeDesc| index[s.material.0 as usize].is_some() || s.area_light.is_some();
-    let Parts { shapes, prototypes, instances, materials: shape_materials, emitters, alpha } =
+    let Parts { shapes, prototypes, instances, moving, materials: shape_materials, emitters, alpha } =
         Parts::new(&mut desc, is_seen);
-    let geometry = Geometry::build_instanced(shapes, prototypes, instances);
+    let moves = desc.camera.moves_to.is_some() || !moving.is_empty();
+    let geometry = Geometry::build_moving(shapes, prototypes, instances, moving);
     let dropped = geometry.stats().dropped;
     if dropped > 0 {
         notes.push(format!(
@@ -75,6 +76,7 @@ pub fn compile(mut desc: SceneDesc) -> Result<Compiled, CompileError> {
         textures,
         lights,
         asks_hits,
+        moves,
     };
     Ok(Compiled { scene, notes })
 }

@@ -3,8 +3,10 @@
 use core::mem::take;
 use std::sync::Arc;
 
-use sparrow_geometry::{BilinearMesh, CurveSet, Instance, Shape, ShapeInstance, TriangleMesh};
-use sparrow_math::{Real, Transform, Vec3};
+use sparrow_geometry::{
+    BilinearMesh, CurveSet, Instance, MovingInstance, Shape, ShapeInstance, TriangleMesh,
+};
+use sparrow_math::{Motion, Real, Transform, Vec3};
 use sparrow_scene::{
     AreaLightId, CurveBasis, CurveKind, Curves, FloatTextureId, InstanceDesc, MaterialId, Mesh, SceneDesc,
     ShapeDesc, ShapeKind,
@@ -16,6 +18,7 @@ pub(super) struct Parts {
     pub(super) shapes: Vec<ShapeInstance>,
     pub(super) prototypes: Vec<Vec<ShapeInstance>>,
     pub(super) instances: Vec<Instance>,
+    pub(super) moving: Vec<MovingInstance>,
     pub(super) materials: Vec<MaterialId>,
     pub(super) emitters: Vec<Option<AreaLightId>>,
     pub(super) alpha: Vec<Option<FloatTextureId>>,
@@ -30,13 +33,17 @@ impl Parts {
         instances.iter().for_each(|i| n_places[i.prototype.0 as usize] += 1);
 
         let mut parts = Parts::default();
-        take(&mut desc.shapes).into_iter().filter(&is_seen).for_each(|s| parts.push(s));
+        let (moving, standing): (Vec<ShapeDesc>, Vec<ShapeDesc>) =
+            take(&mut desc.shapes).into_iter().filter(&is_seen).partition(|s| s.moves_to.is_some());
+        standing.into_iter().for_each(|s| parts.push(s));
         // A quadric that is mirrored with its prototype keeps its outside, one that is mirrored as a shape does not.
-        let is_single =
-            |i: &InstanceDesc| n_places[i.prototype.0 as usize] == 1 && !i.to_world.swaps_handedness();
+        let is_single = |i: &InstanceDesc| {
+            let alone = n_places[i.prototype.0 as usize] == 1;
+            alone && !i.to_world.swaps_handedness() && i.moves_to.is_none()
+        };
         let (single, placed): (Vec<InstanceDesc>, Vec<InstanceDesc>) =
             instances.into_iter().partition(is_single);
-        for InstanceDesc { prototype, to_world } in single {
+        for InstanceDesc { prototype, to_world, .. } in single {
             let shapes = take(&mut prototypes[prototype.0 as usize].shapes);
             let in_world = |s: ShapeDesc| ShapeDesc { to_world: to_world.then_first(&s.to_world), ..s };
             shapes.into_iter().filter(&is_seen).for_each(|s| parts.push(in_world(s)));
@@ -48,10 +55,41 @@ impl Parts {
             let shapes = parts.shapes.split_off(n_world);
             parts.prototypes.push(shapes);
         }
-        // An instance of nothing has no box, and would count as dropped.
-        let is_there = |i: &InstanceDesc| !parts.prototypes[i.prototype.0 as usize].is_empty();
-        parts.instances = placed.into_iter().filter(is_there).map(instance).collect();
+        for i in placed {
+            // An instance of nothing has no box, and would count as dropped.
+            if parts.prototypes[i.prototype.0 as usize].is_empty() {
+                continue;
+            }
+            match i.moves_to {
+                None => parts.instances.push(instance(&i)),
+                Some(end) => parts.push_moving(&i.to_world, &end, i.prototype.0),
+            }
+        }
+        parts.push_moving_shapes(moving, n_world);
         parts
+    }
+
+    fn push_moving(&mut self, start: &Transform, end: &Transform, prototype: u32) {
+        let motion = Motion::new(start, end);
+        self.moving.extend(motion.map(|motion| MovingInstance { motion, prototype }));
+    }
+
+    /// Shapes that move, as prototypes of their own: one for each run of shapes that move alike.
+    fn push_moving_shapes(&mut self, shapes: Vec<ShapeDesc>, n_world: usize) {
+        let mut last = None;
+        for s in shapes {
+            let Some(end) = s.moves_to else { continue };
+            if last != Some((s.to_world, end)) {
+                last = Some((s.to_world, end));
+                self.push_moving(&s.to_world, &end, self.prototypes.len() as u32);
+                self.prototypes.push(Vec::new());
+            }
+            self.push(ShapeDesc { to_world: Transform::IDENTITY, ..s });
+            let pushed = self.shapes.split_off(n_world);
+            if let Some(prototype) = self.prototypes.last_mut() {
+                prototype.extend(pushed);
+            }
+        }
     }
 
     /// Adds a shape, in the space that its `to_world` leads to.
@@ -121,7 +159,7 @@ impl Parts {
 }
 
 /// An instance in single precision.
-fn instance(i: InstanceDesc) -> Instance {
+fn instance(i: &InstanceDesc) -> Instance {
     let [x, y, z, _] = i.to_world.rows().map(|row| row.map(|v| v as f32));
     Instance { to_world: [x, y, z], prototype: i.prototype.0 }
 }

@@ -12,7 +12,7 @@ use crate::sampler::PixelSampler;
 use crate::scatter::{Density, Scatter};
 use crate::scene::{LastVertex, Scene};
 
-/// Dimensions of the sampler that come before the first bounce: wavelength and lens.
+/// Dimensions of the sampler that come before the first bounce: wavelength, time and lens.
 const FIRST_BOUNCE: u32 = 4;
 /// Dimensions of one bounce: light (1 + 2), direction (1 + 2), roulette (1).
 const PER_BOUNCE: u32 = 7;

@@ -177,8 +177,8 @@ impl Builder {
             self.report.error(at, "instances cannot stand inside an object; close it with `ObjectEnd` first");
             return;
         }
-        let to_world = self.ctm(at);
-        self.instances.push(PendingInstance { name, at: name_at, to_world });
+        let (to_world, moves_to) = self.moving(at);
+        self.instances.push(PendingInstance { name, at: name_at, to_world, moves_to });
     }
 
     fn attribute(&mut self, parser: &mut Parser<'_>) -> Result<(), Diagnostic> {

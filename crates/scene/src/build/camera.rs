@@ -1,6 +1,6 @@
 //! The camera.
 
-use sparrow_math::Transform;
+use sparrow_math::{Motion, Transform};
 
 use super::Builder;
 use crate::desc::{CameraDesc, Projection};
@@ -13,6 +13,8 @@ impl Builder {
             return CameraDesc {
                 projection: Projection::Perspective { fov: 90.0 },
                 to_world: Transform::IDENTITY,
+                moves_to: None,
+                motion_times: [0.0, 1.0],
                 screen_window: None,
                 frame_aspect: None,
                 lens_radius: 0.0,
@@ -21,6 +23,11 @@ impl Builder {
             };
         };
         let p = &statement.params;
+        let [start, end] = statement.ctm;
+        if Motion::new(&start, &end).is_none() {
+            self.report
+                .error(p.at, "the camera moves from one hand to the other; mirror both transforms or none");
+        }
         let projection = match statement.entity.name {
             "orthographic" => Projection::Orthographic,
             _ => Projection::Perspective { fov: self.fov(p) },
@@ -28,7 +35,9 @@ impl Builder {
         CameraDesc {
             projection,
             // The current transform takes the world to the camera.
-            to_world: statement.ctm.inverse(),
+            to_world: start.inverse(),
+            moves_to: (end != start).then(|| end.inverse()),
+            motion_times: self.setup.transform_times,
             screen_window: self.screen_window(p),
             frame_aspect: self.above_zero(p, "frameaspectratio"),
             lens_radius: self.lens_radius(p),

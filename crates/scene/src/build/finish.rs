@@ -95,10 +95,12 @@ impl Builder {
     fn make_instances(&mut self, prototypes: &[PrototypeDesc]) -> Vec<InstanceDesc> {
         let pending = std::mem::take(&mut self.instances);
         let mut instances = Vec::with_capacity(pending.len());
-        for PendingInstance { name, at, to_world } in pending {
+        for PendingInstance { name, at, to_world, moves_to } in pending {
             match self.object_names.get(name.as_str()) {
                 Some(&i) if prototypes.get(i).is_some_and(|p| p.shapes.is_empty()) => {}
-                Some(&i) => instances.push(InstanceDesc { prototype: PrototypeId(i as u32), to_world }),
+                Some(&i) => {
+                    instances.push(InstanceDesc { prototype: PrototypeId(i as u32), to_world, moves_to });
+                }
                 None => {
                     let remedy = remedy(&name, self.object_names.keys().map(AsRef::as_ref));
                     self.report.error(at, format!("there is no object \"{name}\"; {remedy}"));
@@ -121,6 +123,7 @@ impl Builder {
         ShapeDesc {
             kind: shape.kind,
             to_world: shape.to_world,
+            moves_to: shape.moves_to,
             reverse_orientation: shape.reverse_orientation,
             material,
             area_light,

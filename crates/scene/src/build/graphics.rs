@@ -2,7 +2,7 @@
 
 use std::rc::Rc;
 
-use sparrow_math::{Transform, vec3};
+use sparrow_math::{Motion, Transform, vec3};
 use sparrow_spectra::ColorSpace;
 
 use super::Builder;
@@ -38,7 +38,7 @@ impl Target {
 /// The graphics state.
 #[derive(Clone, Debug)]
 pub(super) struct Graphics {
-    /// Object to world, where the shutter opens and closes.
+    /// Object to world, where motion starts and where it ends.
     pub(super) ctm: [Transform; 2],
     /// Which of the two transform statements act on.
     pub(super) active: [bool; 2],
@@ -76,13 +76,27 @@ impl Graphics {
 }
 
 impl Builder {
-    /// The current transform, where the shutter opens. Says that motion is not rendered.
-    pub(super) fn ctm(&mut self, at: Span) -> Transform {
+    /// The current transform of something that cannot move: where motion starts.
+    pub(super) fn standing(&mut self, what: &str, at: Span) -> Transform {
         let [start, end] = self.graphics.ctm;
         if start != end {
-            self.report.warn(at, "motion is not supported yet; what moves stands where the shutter opens");
+            self.report.warn(at, format!("{what} cannot move; it stands where motion starts"));
         }
         start
+    }
+
+    /// The current transform of something that may move, and the one where its motion ends.
+    pub(super) fn moving(&mut self, at: Span) -> (Transform, Option<Transform>) {
+        let [start, end] = self.graphics.ctm;
+        if start == end {
+            return (start, None);
+        }
+        if Motion::new(&start, &end).is_none() {
+            let message = "only one of the two transforms between which this moves mirrors space: in between it would be flat; \
+                           mirror both or none";
+            self.report.error(at, message);
+        }
+        (start, Some(end))
     }
 
     /// Reads a statement that changes the transform; false where it is another statement.
@@ -132,8 +146,12 @@ impl Builder {
             "CoordSysTransform" => self.recall(parser)?,
             "ActiveTransform" => self.activate(parser)?,
             "TransformTimes" => {
-                // Times matter only to motion.
-                let _: [f64; 2] = parser.numbers()?;
+                let [start, end]: [f64; 2] = parser.numbers()?;
+                if end <= start {
+                    let message = format!("motion starts at {start} and ends at {end}; let it end later");
+                    self.report.error(at, message);
+                }
+                self.setup.transform_times = [start, end];
             }
             _ => return Ok(false),
         }

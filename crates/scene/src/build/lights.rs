@@ -37,7 +37,7 @@ impl Builder {
             _ => self.infinite(&params),
         };
         let Some(kind) = kind else { return };
-        let to_world = self.ctm(params.at);
+        let to_world = self.standing("a light", params.at);
         self.lights.push(LightDesc { kind, to_world, at: params.at });
     }
 

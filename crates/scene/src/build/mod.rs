@@ -47,12 +47,12 @@ use textures::{PendingTexture, Textures};
 struct Statement {
     entity: &'static Entity,
     params: Params,
-    /// The current transform where it stands.
-    ctm: Transform,
+    /// The current transforms where it stands.
+    ctm: [Transform; 2],
 }
 
 /// The statements before `WorldBegin`.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 struct Setup {
     camera: Option<Statement>,
     film: Option<Statement>,
@@ -60,6 +60,22 @@ struct Setup {
     sampler: Option<Statement>,
     integrator: Option<Statement>,
     seed: u64,
+    /// When motion starts and ends.
+    transform_times: [f64; 2],
+}
+
+impl Default for Setup {
+    fn default() -> Self {
+        Setup {
+            camera: None,
+            film: None,
+            filter: None,
+            sampler: None,
+            integrator: None,
+            seed: 0,
+            transform_times: [0.0, 1.0],
+        }
+    }
 }
 
 /// Takes statements and makes a [`SceneDesc`](crate::SceneDesc) of them.

@@ -25,6 +25,7 @@ pub(super) enum Alpha {
 pub(super) struct PendingShape {
     pub(super) kind: ShapeKind,
     pub(super) to_world: Transform,
+    pub(super) moves_to: Option<Transform>,
     pub(super) reverse_orientation: bool,
     pub(super) material: MaterialRef,
     pub(super) area_light: Option<AreaLightId>,
@@ -40,6 +41,7 @@ impl PendingShape {
             && self.alpha == other.alpha
             && self.reverse_orientation == other.reverse_orientation
             && self.to_world == other.to_world
+            && self.moves_to == other.moves_to
             && joined(&mut self.kind, &other.kind)
     }
 }
@@ -58,6 +60,7 @@ pub(super) struct PendingInstance {
     pub(super) name: String,
     pub(super) at: Span,
     pub(super) to_world: Transform,
+    pub(super) moves_to: Option<Transform>,
 }
 
 impl Builder {
@@ -66,7 +69,6 @@ impl Builder {
         if entity.support != Support::Yes {
             return;
         }
-        let to_world = self.ctm(params.at);
         let Some(kind) = self.shape_kind(entity.name, &mut params) else { return };
         let mut area_light = self.graphics.area_light;
         if area_light.is_some() && self.open_object.is_some() {
@@ -77,9 +79,17 @@ impl Builder {
             self.report.warn(params.at, "curves do not emit light; the area light is ignored for them");
             area_light = None;
         }
+        let (to_world, moves_to) = if area_light.is_some() {
+            (self.standing("a shape that emits light", params.at), None)
+        } else if self.open_object.is_some() {
+            (self.standing("a shape within an object", params.at), None)
+        } else {
+            self.moving(params.at)
+        };
         let shape = PendingShape {
             kind,
             to_world,
+            moves_to,
             reverse_orientation: self.graphics.reverse_orientation,
             material: self.graphics.material.clone(),
             area_light,

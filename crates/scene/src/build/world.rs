@@ -118,7 +118,7 @@ impl Builder {
     }
 
     fn setup(&mut self, category: Category, entity: &'static Entity, params: Params) {
-        let ctm = self.ctm(params.at);
+        let ctm = self.graphics.ctm;
         if category == Category::Camera {
             self.coordinate_systems.insert("camera".into(), self.graphics.ctm.map(|t| t.inverse()));
         }
@@ -188,7 +188,7 @@ impl Builder {
         };
         let params = self.read_params(parser, category, at);
         self.count("Texture", &type_name.0);
-        let to_world = self.ctm(at);
+        let to_world = self.standing("a texture", at);
         let earlier = self.textures.iter().find(|t| t.category == category && t.name == name);
         if let Some(first) = earlier.map(|t| t.name_at) {
             let place = self.report.place(first);

@@ -25,4 +25,6 @@ pub struct InstanceDesc {
     pub prototype: PrototypeId,
     /// The object's space to world.
     pub to_world: Transform,
+    /// The same where its motion ends, if it moves.
+    pub moves_to: Option<Transform>,
 }

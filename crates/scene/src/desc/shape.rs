@@ -73,6 +73,8 @@ pub struct ShapeDesc {
     pub kind: ShapeKind,
     /// Its own space to world; of a shape of a prototype, to the prototype's space.
     pub to_world: Transform,
+    /// The same where its motion ends, if it moves. What emits light or belongs to a prototype does not.
+    pub moves_to: Option<Transform>,
     /// `ReverseOrientation` was in force.
     pub reverse_orientation: bool,
     /// What it is made of.

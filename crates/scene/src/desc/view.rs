@@ -24,6 +24,10 @@ pub struct CameraDesc {
     pub projection: Projection,
     /// Camera space to world: camera x right, y up, z ahead, left-handed as in pbrt-v4.
     pub to_world: Transform,
+    /// The same where motion ends, if the camera moves.
+    pub moves_to: Option<Transform>,
+    /// When motion starts and ends, in scene time; before and after everything stands still.
+    pub motion_times: [f64; 2],
     /// `x0 x1 y0 y1` on the image plane; from the picture's aspect unless given.
     pub screen_window: Option<[f32; 4]>,
     /// Width over height; from the resolution unless given.
