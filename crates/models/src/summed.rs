@@ -1,7 +1,7 @@
-//! Fibre models that are sums over many rays: [`Summed`]. They are computed one by one, in double precision, whatever the number type.
+//! Fibre models that are sums over many rays or ways: [`Summed`]. They are computed one by one, in double precision, whatever the number type.
 //!
-//! Such a sum cannot be had in single precision: where a ray inside meets the surface near the critical angle, its exit turns by the
-//! root of a rounding. In lanes it would gain little, since what each lane can leave out differs.
+//! Where a ray inside meets the surface near the critical angle, its exit turns by the root of a rounding: single precision would put it
+//! elsewhere. Lanes would gain little, since what each can leave out differs, and cost much time to build.
 
 use sparrow_math::{LocalDir, Mask, Real, vec3};
 use sparrow_spectra::{N_LAMBDA, Spectrum};
