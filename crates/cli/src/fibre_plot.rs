@@ -40,7 +40,7 @@ pub(crate) fn draw(rows: &[ModelError], samples: u32) -> Figure {
         theme: LIGHT,
         title: "Fibre models against a fibre".to_owned(),
         subtitle: format!(
-            "share of each lobe in the wrong place  ·  η = 1.55, σ_{{a}} = {SIGMA_A}, far field, {samples} rays a place"
+            "share of each lobe in the wrong place, over roughness and inclination  ·  η = 1.55, σ_{{a}} = {SIGMA_A}, far field, {samples} rays a place"
         ),
         legend: Vec::new(),
         notes: vec![
@@ -50,7 +50,7 @@ pub(crate) fn draw(rows: &[ModelError], samples: u32) -> Figure {
     let heat = Heat {
         page,
         x: names("lobe", &LOBES.map(str::to_owned)),
-        y: names("roughness, inclination", &places),
+        y: names("", &places),
         // What is more than all of a lobe gets the last colour.
         colour: Axis::fixed("misplaced  [%]", 0.0, 100.0, 6),
         panels,
