@@ -9,6 +9,7 @@ use serde::Serialize;
 use sparrow_groom::{Count, Flow, Style, Surface, grow};
 use sparrow_math::{Vec3, vec3};
 use sparrow_scene::curve_files::hair_bytes;
+use sparrow_scene::obj::{self, ObjMesh};
 use sparrow_scene::ply;
 
 use crate::failure::{DONE, Failure};
@@ -22,7 +23,7 @@ draw tips together; curl winds what comes out. Strands do not know the body beyo
 seed give the same file, byte for byte.")]
 #[command(allow_negative_numbers = true)]
 pub(crate) struct GroomArgs {
-    /// Mesh, in the PLY format
+    /// Mesh, in the PLY or the OBJ format
     mesh: PathBuf,
 
     /// Name of the file [default: the mesh's, in the current folder]
@@ -125,13 +126,8 @@ pub(crate) fn run(args: &GroomArgs) -> Result<u8, Failure> {
     });
     paths::check_writable(&output)?;
     let in_mesh = |e: &dyn std::fmt::Display| Failure::input(format!("{}: {e}", args.mesh.display()));
-    let mesh = ply::read(&args.mesh).map_err(|e| Failure::input(e.to_string()))?;
-    for note in mesh.notes.iter().filter(|_| !args.quiet) {
-        console::log(format!("{}: {note}", args.mesh.display()));
-    }
-    let mut triangles = mesh.triangles;
-    triangles.extend(mesh.quads.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]));
-    let surface = Surface { p: &mesh.p, n: &mesh.n, uv: &mesh.uv, triangles: &triangles };
+    let mesh = read_mesh(args)?;
+    let surface = Surface { p: &mesh.p, n: &mesh.n, uv: &mesh.uv, triangles: &mesh.triangles };
     let groom = grow(&surface, &style).map_err(|e| in_mesh(&e))?;
     let bytes = hair_bytes(groom.strands())
         .ok_or_else(|| in_mesh(&"the strands do not fit into a .hair file; lower density or segments"))?;
@@ -145,6 +141,20 @@ pub(crate) fn run(args: &GroomArgs) -> Result<u8, Failure> {
         bytes: bytes.len(),
     };
     report(args, &outcome)
+}
+
+/// The mesh to grow on: OBJ where the file's name ends so, else PLY.
+fn read_mesh(args: &GroomArgs) -> Result<ObjMesh, Failure> {
+    if args.mesh.extension().is_some_and(|e| e.eq_ignore_ascii_case("obj")) {
+        return obj::read(&args.mesh).map_err(|e| Failure::input(e.to_string()));
+    }
+    let mesh = ply::read(&args.mesh).map_err(|e| Failure::input(e.to_string()))?;
+    for note in mesh.notes.iter().filter(|_| !args.quiet) {
+        console::log(format!("{}: {note}", args.mesh.display()));
+    }
+    let mut triangles = mesh.triangles;
+    triangles.extend(mesh.quads.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]));
+    Ok(ObjMesh { p: mesh.p, n: mesh.n, uv: mesh.uv, triangles })
 }
 
 fn report(args: &GroomArgs, outcome: &Outcome) -> Result<u8, Failure> {

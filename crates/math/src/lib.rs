@@ -20,7 +20,7 @@ pub use frame::{Frame, LocalDir};
 pub use lanes::{LaneMask, Lanes};
 pub use motion::Motion;
 pub use real::{MAX_WIDTH, Mask, Real};
-pub use simd::{InLanes, in_lanes, only_in_lanes};
+pub use simd::{InLanes, in_lanes, only_in_lanes, widest};
 pub use transform::Transform;
 pub use vec3::{Vec3, vec3};
 

@@ -41,7 +41,7 @@ impl Motion {
         let q1 = q1.map(|x| if dot < 0.0 { -x } else { x });
         // The angle from the sum and the difference keeps its digits everywhere.
         let length = |sign: f64| q0.iter().zip(&q1).map(|(a, b)| (b + sign * a).sqr()).sum::<f64>().sqrt();
-        let half_turn = 2.0 * length(-1.0).atan2(length(1.0));
+        let half_turn = 2.0 * Real::atan2(length(-1.0), length(1.0));
         Some(Motion { translation, rotation: [q0, q1], stretch: [s0, s1], half_turn })
     }
 
@@ -178,7 +178,7 @@ mod tests {
 
     fn place(k: u32, mirrored: bool) -> Transform {
         let k = f64::from(k);
-        let turn = Transform::rotate(37.0 * k, vec3(k.sin_cos().0, 0.3, 1.0 - 0.1 * k)).unwrap();
+        let turn = Transform::rotate(37.0 * k, vec3(Real::sin(k), 0.3, 1.0 - 0.1 * k)).unwrap();
         let stretch =
             Transform::scale(vec3(0.5 + 0.2 * k, if mirrored { -1.5 } else { 1.5 }, 3.0 - 0.1 * k)).unwrap();
         let skewed =

@@ -1,6 +1,6 @@
 //! Lanes against `f32`, bit for bit: every operation of `Real`, over ordinary and awkward numbers.
 
-use sparrow_math::{InLanes, Lanes, Mask, Real, in_lanes};
+use sparrow_math::{InLanes, Lanes, Mask, Real, in_lanes, only_in_lanes, widest};
 
 /// Awkward numbers, each met by each in the second operand.
 const EDGES: [f32; 16] = [
@@ -95,6 +95,9 @@ fn the_widest_lanes_equal_scalars_bit_for_bit() {
     let (a, b) = operands();
     let (width, lanes) = in_lanes(Everything(&a, &b));
     assert!(width == 1 || width == 8);
+    let (widest_width, widest_lanes) = only_in_lanes(Everything(&a, &b)).unwrap_or((width, lanes.clone()));
+    assert_eq!(widest_width, widest());
+    assert!(widest_lanes.iter().zip(&lanes).all(|(w, l)| same(*w, *l)), "in {widest_width} lanes");
     let (_, portable) = Everything(&a, &b).run::<Lanes<8>>();
     let (_, scalar) = Everything(&a, &b).run::<f32>();
     for (k, ((l, p), s)) in lanes.iter().zip(&portable).zip(&scalar).enumerate() {
@@ -110,7 +113,7 @@ impl InLanes for Masks {
     type Output = [bool; 6];
     #[inline(always)]
     fn run<R: Real>(self) -> [bool; 6] {
-        let mut column = [0.0; 8];
+        let mut column = [0.0; 16];
         column[R::WIDTH - 1] = 1.0;
         let last = R::load(&column, 0).gt(R::ZERO);
         let none = R::ZERO.gt(R::ONE);
@@ -123,6 +126,7 @@ impl InLanes for Masks {
 #[test]
 fn masks_tell_any_from_all() {
     assert_eq!(in_lanes(Masks), [true; 6]);
+    assert_eq!(only_in_lanes(Masks).unwrap_or([true; 6]), [true; 6]);
     assert_eq!(Masks.run::<Lanes<8>>(), [true; 6]);
     assert_eq!(Masks.run::<f32>(), [true; 6]);
 }

@@ -1,13 +1,13 @@
 //! The batch form of every model: many points of one model at once, in lanes, from columns of numbers.
 //!
-//! The same text as for one ray, run as [`Lanes`] of eight inside a kernel that is compiled for the vector unit
+//! The same text as for one ray, run in lanes inside a kernel that is compiled for the vector unit
 //! found at run time. With fused multiply-add off, which is the case here, the results equal those of `f32` bit for bit,
-//! on every machine. What does not fill eight lanes, and all where there are none, is computed one by one.
+//! on every machine. What does not fill the lanes, and all where there are none, is computed one by one.
 
 use core::marker::PhantomData;
 use core::ops::Range;
 
-use sparrow_math::{InLanes, LocalDir, Real, only_in_lanes, vec3};
+use sparrow_math::{InLanes, LocalDir, Real, only_in_lanes, vec3, widest};
 use sparrow_spectra::{N_LAMBDA, Spectrum};
 
 use crate::{
@@ -255,9 +255,6 @@ impl<F: Family> InLanes for Draw<'_, '_, F> {
     }
 }
 
-/// Lanes of the batch form.
-const WIDTH: usize = 8;
-
 /// Evaluates one model, in lanes as far as they are filled.
 #[inline(never)]
 pub(crate) fn eval<F: Family>(
@@ -267,7 +264,7 @@ pub(crate) fn eval<F: Family>(
     out: &mut EvalColumns<'_>,
 ) {
     let n = out.pdf.len();
-    let whole = n - n % WIDTH;
+    let whole = n - n % widest();
     let lanes = Eval::<F> { p, wo, wi, out, range: 0..whole, family: PhantomData };
     let done = if only_in_lanes(lanes).is_ok() { whole } else { 0 };
     for i in done..n {
@@ -284,7 +281,7 @@ pub(crate) fn draw<F: Family>(
     out: &mut SampleColumns<'_>,
 ) {
     let n = out.density.len();
-    let whole = n - n % WIDTH;
+    let whole = n - n % widest();
     let lanes = Draw::<F> { p, wo, u, out, range: 0..whole, family: PhantomData };
     let done = if only_in_lanes(lanes).is_ok() { whole } else { 0 };
     for i in done..n {

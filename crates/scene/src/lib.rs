@@ -24,6 +24,7 @@ pub mod curve_files;
 mod desc;
 mod diagnostic;
 mod lexer;
+pub mod obj;
 mod params;
 mod parser;
 pub mod ply;
