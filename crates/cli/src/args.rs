@@ -187,6 +187,10 @@ pub(crate) struct VerifyArgs {
     #[arg(long, conflicts_with_all = ["all", "model"])]
     pub(crate) against_fibre: bool,
 
+    /// Show what --against-fibre finds as a picture; FILE.svg and FILE.csv are written [default: none]
+    #[arg(long, value_name = "FILE.svg", requires = "against_fibre")]
+    pub(crate) plot: Option<std::path::PathBuf>,
+
     /// Samples per case and column
     #[arg(long, value_name = "N", default_value_t = 1_000_000,
         value_parser = clap::value_parser!(u32).range(1000..=1_000_000_000))]

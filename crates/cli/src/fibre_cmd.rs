@@ -8,9 +8,9 @@ use serde::Serialize;
 use sparrow_verify::reference_fibre::{LobeError, ModelError, against};
 
 use crate::args::VerifyArgs;
-use crate::console;
 use crate::failure::{DONE, Failure};
 use crate::verify_cmd::cores;
+use crate::{console, fibre_plot, paths};
 
 /// What `--json` prints.
 #[derive(Serialize)]
@@ -34,8 +34,15 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<u8, Failure> {
         }
     };
     let start = Instant::now();
+    let picture = args.plot.as_ref().map(|path| path.with_extension("svg"));
+    let files = picture.iter().flat_map(|svg| [svg.clone(), svg.with_extension("csv")]);
+    files.clone().try_for_each(|path| paths::check_writable(&path))?;
     let rows = against(args.samples as usize, args.seed, threads, &progress);
     let seconds = start.elapsed().as_secs_f64();
+    let figure = fibre_plot::draw(&rows, args.samples);
+    for (path, text) in files.zip([figure.svg, figure.table.csv()]) {
+        paths::write_whole(&path, text)?;
+    }
     if args.json {
         let outcome = Outcome { samples: args.samples, seed: args.seed, seconds, rows: &rows };
         let json = serde_json::to_string(&outcome)
@@ -54,15 +61,15 @@ fn table(rows: &[ModelError], samples: u32, seconds: f64) -> String {
     let _ = writeln!(
         out,
         "eta 1.55, no tilt, far field, {samples} rays a place. Per lobe, in percent: light of the fibre +- standard error of it; the\n\
-         model's excess over that; share of the lobe in the wrong place (what chance alone would show)\n"
+         model's excess over that; share of the lobe in the wrong place (what chance alone would show). `fur` against a fibre with a core.\n"
     );
-    let _ = write!(out, "{:<12}{:>5}{:>6}{:>7}", "model", "beta", "theta", "sigma");
+    let _ = write!(out, "{:<16}{:>5}{:>6}{:>7}", "model", "beta", "theta", "sigma");
     for lobe in ["R", "TT", "TRT", "more"] {
         let _ = write!(out, "  {lobe:<36}");
     }
     let _ = writeln!(out);
     for r in rows {
-        let _ = write!(out, "{:<12}{:>5}{:>6}{:>7}", r.model, r.at.beta, r.at.theta_deg, r.sigma_a);
+        let _ = write!(out, "{:<16}{:>5}{:>6}{:>7}", r.model, r.at.beta, r.at.theta_deg, r.sigma_a);
         for lobe in &r.lobes {
             let _ = write!(out, "  {:<36}", cell(lobe));
         }

@@ -13,6 +13,7 @@ mod compare_cmd;
 mod console;
 mod failure;
 mod fibre_cmd;
+mod fibre_plot;
 mod groom_cmd;
 mod images;
 mod info_cmd;

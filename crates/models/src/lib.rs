@@ -45,6 +45,8 @@ pub mod cylinder;
 mod fibre;
 mod film;
 pub mod fresnel;
+#[cfg(test)]
+mod generator;
 pub mod ggx;
 mod kind;
 pub mod microfacet;
@@ -55,6 +57,7 @@ mod per_lane;
 mod registry;
 mod sheen_layer;
 pub mod suggest;
+mod summed;
 mod surface;
 mod table;
 mod v_cavity;

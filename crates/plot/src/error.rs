@@ -36,7 +36,7 @@ pub struct PlotError {
 
 impl PlotError {
     /// One fault of the whole.
-    pub(crate) fn plain(message: impl Into<String>) -> PlotError {
+    pub fn plain(message: impl Into<String>) -> PlotError {
         PlotError { faults: vec![Fault { word: None, message: message.into() }] }
     }
 }

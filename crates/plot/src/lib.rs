@@ -5,10 +5,10 @@
 //! [`draw`]. Nothing here touches a file.
 //!
 //! ```
-//! use sparrow_plot::{Kind, Options, draw_figure, parse_series};
+//! use sparrow_plot::{Kind, Options, Series, draw_figure, parse_series};
 //!
 //! let words = ["conductor", "alpha=0.1,0.3,0.6", "wo=45"].map(String::from);
-//! let series = parse_series(&words)?;
+//! let series: Vec<Series> = parse_series(&words)?;
 //! assert_eq!(series.len(), 3);
 //! let figure = draw_figure(&series, &Options { kind: Kind::Polar, ..Options::default() })?;
 //! assert!(figure.svg.starts_with("<svg"));
@@ -23,6 +23,6 @@ mod series;
 mod words;
 
 pub use error::{Fault, PlotError};
-pub use figure::{Figure, Kind, Options, Quantity, draw_figure};
-pub use series::Series;
-pub use words::parse_series;
+pub use figure::{Figure, Kind, Options, Quantity, draw_fibres, draw_figure};
+pub use series::{Family, Series};
+pub use words::{names_a_fibre, parse_series};

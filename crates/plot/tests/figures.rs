@@ -3,9 +3,9 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use sparrow_math::Real;
-use sparrow_models::{Bsdf, SurfaceKind};
-use sparrow_plot::figure::{albedo, draw_samples, plane_direction};
-use sparrow_plot::{Figure, Kind, Options, Quantity, Series, draw_figure, parse_series};
+use sparrow_models::{Bsdf, FibreKind, SurfaceKind};
+use sparrow_plot::figure::{Traced, albedo, draw_samples, plane_direction};
+use sparrow_plot::{Figure, Kind, Options, Quantity, Series, draw_fibres, draw_figure, parse_series};
 use sparrow_stats::cubature::Stop;
 use sparrow_stats::integrate_sphere;
 
@@ -218,7 +218,7 @@ fn maps_run_over_the_roughness() {
 
 #[test]
 fn small_pages_and_numbers_without_range_are_drawn() {
-    for kind in Kind::ALL {
+    for kind in Kind::ALL.into_iter().filter(|k| !k.of_fibres()) {
         let options = Options { size: [Some(320.0), Some(320.0)], samples: 0, ..of(kind) };
         // No light at all, hardly any, and a lobe near the limit of numbers.
         for words in
@@ -243,4 +243,54 @@ fn views_from_below_are_drawn() {
             assert!(all.iter().any(|t| t.starts_with('ω')), "{words} as {}: {all:?}", kind.name());
         }
     }
+}
+
+#[test]
+fn every_fibre_makes_whole_pictures() {
+    for kind in FibreKind::ALL {
+        for plot in Kind::ALL.into_iter().filter(|k| k.of_fibres()) {
+            let mut s = Series::new(*kind);
+            // One ray, since some models take long over the width.
+            s.h = Some(0.3);
+            let drawn = draw_fibres(&[s], &[], &of(plot));
+            if *kind == FibreKind::MirrorCylinder {
+                assert!(drawn.unwrap_err().to_string().contains("is a mirror"));
+                continue;
+            }
+            let (texts, what) = (texts(&drawn.unwrap().svg), format!("{} as {}", kind.name(), plot.name()));
+            assert!(
+                texts.iter().any(|t| t == kind.name())
+                    && texts.iter().any(|t| t.contains("rad]") || t.contains("/sr]")),
+                "{what}: {texts:?}"
+            );
+        }
+    }
+    let refused = draw_figure(&series("lambert"), &of(Kind::Caustic)).unwrap_err().to_string();
+    assert!(refused.contains("show fibres; for surfaces there are polar"), "{refused}");
+}
+
+#[test]
+fn a_section_of_white_hair_holds_all_light() {
+    let words = "hair sigma_a=0 wo=30".split(' ').map(String::from).collect::<Vec<_>>();
+    let hair = parse_series::<FibreKind>(&words).unwrap();
+    let csv = draw_fibres(&hair, &[], &of(Kind::Azimuthal)).unwrap().table.csv();
+    assert!(csv.starts_with("phi_deg,R,TT,TRT,more,all\n"), "{csv:.80}");
+    let all: Vec<f64> = csv.lines().skip(1).map(|l| l.rsplit(',').next().unwrap().parse().unwrap()).collect();
+    // Steps of one degree; both ends are the same place.
+    let light = all[1..].iter().sum::<f64>().to_radians();
+    assert!((light - 1.0).abs() < 2e-3, "{light}");
+}
+
+#[test]
+fn what_was_traced_lies_over_a_section() {
+    let angles: Vec<f64> = (-35..=35).map(|k| 5.0 * f64::from(k)).collect();
+    let traced = Traced { lobes: vec![[0.1, 0.2, 0.3, 0.4]; angles.len()], angles };
+    let figure = draw_fibres(&[Series::new(FibreKind::DEon)], &[traced], &of(Kind::Azimuthal)).unwrap();
+    let all = texts(&figure.svg);
+    assert!(all.iter().any(|t| t == "TRT") && all.iter().any(|t| t == "TRT traced"), "{all:?}");
+    let csv = figure.table.csv();
+    let row = csv.lines().find(|l| l.starts_with("-5.0,")).unwrap();
+    assert!(row.ends_with(",0.1,0.2,0.3,0.4,1.0"), "{row}");
+    let between = csv.lines().find(|l| l.starts_with("-4.0,")).unwrap();
+    assert!(between.ends_with(",,,,,"), "{between}");
 }

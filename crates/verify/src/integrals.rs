@@ -17,7 +17,8 @@ const SCOUTS: usize = 1 << 14;
 const CELLS: usize = 1024;
 /// Standard errors that a mean may be off by: one in two million does so by chance.
 const SIGMAS: f64 = 5.0;
-/// Most evaluations of an integral: six for every five samples, within these bounds. Chance then hides what is left.
+/// Most evaluations of an integral: six for every five samples, within these bounds, and no more than ten. Chance then hides what is
+/// left.
 const EVALUATIONS: [usize; 2] = [400_000, 1_200_000];
 /// Single precision moves directions and densities: no cell is cut where half of its samples lie within this many
 /// radians, 4000 times the rounding of a component.
@@ -137,7 +138,8 @@ fn expect(view: &View<'_>, column: &dyn Column, scouts: &[Dir], finest: f64, sam
         [v.pdf, v.f_cos[0] * squeeze, v.f_cos[1] * squeeze, v.f_cos[2] * squeeze, v.f_cos[3] * squeeze]
     };
     let [least, most] = EVALUATIONS;
-    let stop = Stop { error: 1e-5, evaluations: (samples / 5 * 6).clamp(least, most) };
+    let evaluations = (samples / 5 * 6).clamp(least.min(10 * samples), most);
+    let stop = Stop { error: 1e-5, evaluations };
     let integral = cells.integrate(integrand, stop);
     let t = integral.total();
     let mut pdf: Vec<f64> = integral.value.iter().map(|v| v[0]).collect();

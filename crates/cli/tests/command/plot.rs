@@ -52,14 +52,35 @@ fn all_faults_of_the_words_are_told_and_nothing_is_written() {
 #[test]
 fn help_names_every_kind() {
     let help = Scratch::new().run("plot --help").ok().out;
-    for kind in ["polar", "cartesian", "lobe3d", "half-difference", "samples", "albedo", "albedo-map"] {
+    let surfaces = ["polar", "cartesian", "lobe3d", "half-difference", "samples", "albedo", "albedo-map"];
+    for kind in surfaces.into_iter().chain(["azimuthal", "longitudinal", "caustic", "fibre-map"]) {
         assert!(help.contains(kind), "{kind} is not in {help}");
     }
     let options = help.lines().filter(|l| l.trim_start().starts_with("--") || l.contains("-o, --"));
-    // Every option but help and version; and the view has one too.
+    // Every option but help and version; and the views of surfaces and of fibres have one too.
     assert_eq!(
         help.matches("[default:").count(),
-        options.count() + 1,
+        options.count() + 2,
         "every option says its default: {help}"
     );
+}
+
+#[test]
+fn fibres_have_kinds_of_their_own() {
+    let s = Scratch::new();
+    s.run("plot hair h=0.2 -o hair.svg").ok();
+    s.run("plot lambert_fibre --kind longitudinal -o matt").ok();
+    let csv = std::fs::read_to_string(s.path("hair.csv")).unwrap();
+    assert!(csv.starts_with("phi_deg,R,TT,TRT,more,all\n"));
+    for (words, part) in [
+        ("plot hair --kind polar", "for fibres there are azimuthal"),
+        ("plot lambert --kind caustic", "for surfaces there are polar"),
+        ("plot hair + lambert", "plot them apart"),
+        ("plot lambert --reference", "none is named"),
+        ("plot hair --kind fibre-map --reference", "leave it out"),
+        ("plot kajiya_kay --reference", "no fibre that could be traced"),
+    ] {
+        let ran = s.run(words);
+        assert!(ran.code == Some(2) && ran.err.contains(part), "`{words}`: {ran:?}");
+    }
 }

@@ -7,12 +7,16 @@ pub mod attenuation;
 pub mod azimuthal;
 mod choice;
 pub mod colour;
+pub mod elliptic;
 pub mod far_field;
 pub mod gaussian;
 mod inclination;
 pub mod longitudinal;
+pub mod medulla;
 pub mod roots;
 pub mod roughness;
+pub mod scale;
+pub mod section;
 
 pub use choice::LobeChoice;
 pub use inclination::FibreDir;

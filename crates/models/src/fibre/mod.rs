@@ -4,10 +4,13 @@ use crate::registry::models;
 
 mod banks_fibre;
 mod deon;
+mod elliptical_hair;
+mod fur;
 mod hair;
 mod kajiya_kay;
 mod lambert_fibre;
 mod marschner;
+mod microfacet_hair;
 mod mirror_cylinder;
 mod zinke_weber;
 
@@ -21,6 +24,9 @@ models! {
         Marschner = marschner::Marschner, "marschner";
         ZinkeWeber = zinke_weber::ZinkeWeber, "zinke_weber";
         DEon = deon::DEon, "deon";
+        EllipticalHair = elliptical_hair::EllipticalHair, "elliptical_hair";
+        MicrofacetHair = microfacet_hair::MicrofacetHair, "microfacet_hair";
+        Fur = fur::Fur, "fur";
         Hair = hair::Hair, "hair";
     }
 }

@@ -6,22 +6,43 @@ use sparrow_math::Real;
 use sparrow_models::cylinder::attenuation::Inside;
 use sparrow_models::cylinder::azimuthal::{TrimmedLogistic, WrappedGauss, wrapped};
 use sparrow_models::cylinder::colour::{absorption_of_melanin, absorption_of_tuft};
+use sparrow_models::cylinder::elliptic::Elliptic;
 use sparrow_models::cylinder::far_field::FarField;
 use sparrow_models::cylinder::longitudinal::Longitudinal;
+use sparrow_models::cylinder::medulla::chords;
 use sparrow_models::cylinder::roots::{self, Root};
+use sparrow_models::cylinder::section::{Section, dot};
 use sparrow_spectra::Spectrum;
 
 use crate::records::{check, input, of, want};
 
 /// Runs every check; the ids of the records they asked for.
 pub(crate) fn all() -> Vec<&'static str> {
-    [bravais(), roots(), caustics(), shares(), longitudinal(), bessel(), azimuthal(), colours(), samples()]
-        .concat()
+    [
+        bravais(),
+        roots(),
+        caustics(),
+        shares(),
+        longitudinal(),
+        bessel(),
+        azimuthal(),
+        colours(),
+        samples(),
+        ellipses(),
+        furs(),
+    ]
+    .concat()
 }
 
 /// Sine and cosine of an angle in degrees.
 fn angle(deg: f64) -> [f64; 2] {
     Real::sin_cos(deg.to_radians()).into()
+}
+
+/// Cosine and sine of an angle in degrees.
+fn azimuth(deg: f64) -> [f64; 2] {
+    let [sin, cos] = angle(deg);
+    [cos, sin]
 }
 
 fn close(got: f64, want: f64, tol: f64, what: &str) {
@@ -167,4 +188,53 @@ fn samples() -> Vec<&'static str> {
         check(r, &[], m.sample(angle(25.0), [input(r, "u1"), input(r, "u2")]));
     }
     around.iter().chain(&along).map(|r| r.0).collect()
+}
+
+/// Rays through an ellipse, and the density around it with which a mirror sends light of all offsets.
+fn ellipses() -> Vec<&'static str> {
+    let traces = of("ellipse.trace.");
+    for (_, r) in &traces {
+        let section = Section { b: input(r, "b") };
+        let rays = Elliptic { section, theta: [0.0, 1.0], eta: 1.55, sigma_a: Spectrum::ZERO };
+        // Our h lies to the other side.
+        let exits = rays.exits(azimuth(input(r, "phi_i")), -input(r, "h"));
+        let lengths = [0.0, exits.chords[0], exits.chords[1]];
+        for (p, (d, length)) in exits.directions.into_iter().zip(lengths).enumerate() {
+            let name = format!("p{p}");
+            check(r, &[&name, "0"], Real::atan2(d[1], d[0]).to_degrees());
+            check(r, &[&name, "1"], length);
+        }
+    }
+    // int (R cos(D / 2) / (4 W)) dphi_o, the radius of curvature R at the normal halfway between.
+    let section = Section { b: 0.7 };
+    let density = |from: f64, to: f64| {
+        let (n, phi) = (0.5 * (from + to), azimuth(from));
+        let n = azimuth(n);
+        0.25 * section.radius(n) * dot(n, phi) / section.half_width(phi)
+    };
+    let densities = of("ellipse.R.");
+    for (id, r) in &densities {
+        let from = input(r, "phi_i");
+        if *id == "ellipse.R.int" {
+            let n = 2000;
+            let at = |k: i32| density(from, from - 180.0 + (f64::from(k) + 0.5) * 360.0 / f64::from(n));
+            let whole = (0..n).map(at).sum::<f64>() * 2.0 * PI / f64::from(n);
+            close(whole, want(r, &[]), 1e-6, id);
+        } else {
+            check(r, &[], density(from, input(r, "phi_o")));
+        }
+    }
+    traces.iter().chain(&densities).map(|r| r.0).collect()
+}
+
+/// Ways through cortex and medulla.
+fn furs() -> Vec<&'static str> {
+    let records = of("fur.chords.");
+    for (_, r) in &records {
+        let sin = input(r, "h") / 1.55;
+        let [cortex, medulla] = chords(input(r, "kappa"), [sin, (1.0 - sin * sin).sqrt()]);
+        check(r, &["s_cortex_total"], cortex);
+        check(r, &["s_medulla"], medulla);
+    }
+    records.iter().map(|r| r.0).collect()
 }

@@ -10,7 +10,8 @@ use crate::records::{check, input, of, want};
 
 /// Runs every check; the ids of the records they asked for.
 pub(crate) fn all() -> Vec<&'static str> {
-    [mirror(), kajiya_kay(), lambert(), marschner(), glints(), eccentricity(), chiang(), roughness()].concat()
+    [mirror(), kajiya_kay(), lambert(), marschner(), glints(), eccentricity(), chiang(), roughness(), huang()]
+        .concat()
 }
 
 /// The direction of an inclination and an azimuth in degrees.
@@ -245,4 +246,37 @@ fn roughness() -> Vec<&'static str> {
         check(r, &["s"], logistic_scale(input(r, "beta_n")));
     }
     records.iter().map(|r| r.0).collect()
+}
+
+/// R of a mirror with facets in the far field.
+fn huang() -> Vec<&'static str> {
+    let records = of("huang.R.");
+    let m = bind(FibreKind::MicrofacetHair, 0.0, &[1, 1], &[1.55, 0.3, 0.3, 0.0, 1.0], &[0.0]);
+    for (id, r) in &records {
+        if *id == "huang.R.furnace" {
+            let wo = dir(20.0, 0.0);
+            check(r, &[], over_sphere(150, |wi| m.f_cos(wo, wi).0[0]));
+        } else {
+            let (i, o) = pair(r);
+            check(r, &[], m.f_cos(i, o).0[0]);
+        }
+    }
+    records.iter().map(|r| r.0).collect()
+}
+
+#[test]
+fn the_far_field_of_facets_is_the_mean_of_the_near_field() {
+    for (aspect, tilt) in [(1.0, 0.0), (0.6, 0.0), (0.6, 5.0)] {
+        let reals = [1.55, 0.3, 0.2, tilt, aspect];
+        let far = bind(FibreKind::MicrofacetHair, 0.0, &[1], &reals, &[0.2]);
+        let (wo, wi) = (dir(20.0, 35.0), dir(-10.0, 80.0));
+        let n = 2000;
+        let near = |k: i32| {
+            let h = (f64::from(k) + 0.5) / f64::from(n) * 2.0 - 1.0;
+            bind(FibreKind::MicrofacetHair, h, &[0], &reals, &[0.2]).lobes(wo, wi)[0].0[0]
+        };
+        let mean = (0..n).map(near).sum::<f64>() / f64::from(n);
+        let whole = far.lobes(wo, wi)[0].0[0];
+        assert!((mean / whole - 1.0).abs() < 1e-4, "{aspect} {tilt}: {mean} {whole}");
+    }
 }

@@ -22,11 +22,19 @@ pub enum Kind {
     Albedo,
     /// Albedo over the angle of the view and a parameter.
     AlbedoMap,
+    /// Light of a fibre over the inclination, lobe by lobe.
+    Longitudinal,
+    /// Light of a fibre around it, lobe by lobe.
+    Azimuthal,
+    /// TRT of a fibre around it.
+    Caustic,
+    /// Value of a fibre over all directions.
+    FibreMap,
 }
 
 impl Kind {
     /// Every kind.
-    pub const ALL: [Kind; 7] = [
+    pub const ALL: [Kind; 11] = [
         Kind::Polar,
         Kind::Cartesian,
         Kind::Lobe3d,
@@ -34,7 +42,15 @@ impl Kind {
         Kind::Samples,
         Kind::Albedo,
         Kind::AlbedoMap,
+        Kind::Azimuthal,
+        Kind::Longitudinal,
+        Kind::Caustic,
+        Kind::FibreMap,
     ];
+    /// It shows fibres, not surfaces.
+    pub fn of_fibres(self) -> bool {
+        matches!(self, Kind::Longitudinal | Kind::Azimuthal | Kind::Caustic | Kind::FibreMap)
+    }
     /// The name on the command line.
     pub fn name(self) -> &'static str {
         match self {
@@ -45,6 +61,10 @@ impl Kind {
             Kind::Samples => "samples",
             Kind::Albedo => "albedo",
             Kind::AlbedoMap => "albedo-map",
+            Kind::Longitudinal => "longitudinal",
+            Kind::Azimuthal => "azimuthal",
+            Kind::Caustic => "caustic",
+            Kind::FibreMap => "fibre-map",
         }
     }
     /// What it shows, in a line.
@@ -59,6 +79,10 @@ impl Kind {
             Kind::Samples => "sampled directions over the density, on a disc of equal area",
             Kind::Albedo => "albedo over the angle of the view",
             Kind::AlbedoMap => "albedo over the angle of the view and a parameter",
+            Kind::Longitudinal => "light of a fibre over the inclination, lobe by lobe",
+            Kind::Azimuthal => "light of a fibre around it, lobe by lobe",
+            Kind::Caustic => "TRT of a fibre around it, with its caustics",
+            Kind::FibreMap => "value of a fibre over inclination and azimuth",
         }
     }
 }

@@ -10,11 +10,13 @@
 //! `q(wo, wi) = S cos theta_i`.
 
 mod boundary;
+mod like;
 mod section;
 mod table;
 mod trace;
 
 pub use boundary::Surface;
+pub use like::{Over, fibre_like};
 pub use section::Section;
 pub use table::{Grid, LobeError, ModelError, against, comparison_grid};
 pub use trace::{Core, Photon, ReferenceFibre};

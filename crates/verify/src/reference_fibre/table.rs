@@ -12,7 +12,7 @@ use sparrow_stats::Random;
 
 use super::boundary::Surface;
 use super::section::Section;
-use super::trace::ReferenceFibre;
+use super::trace::{Core, ReferenceFibre};
 
 /// Cells along and around the fibre, of equal angle.
 const CELLS: [usize; 2] = [18, 24];
@@ -31,13 +31,28 @@ pub struct Grid {
     pub beta: f64,
     /// Inclination.
     pub theta_deg: f64,
+    /// The fibre has a scattering core, which fur alone knows.
+    pub cored: bool,
 }
 
-/// The table's places.
+/// The core of the table.
+const CORE: Core = Core { kappa: 0.7, sigma_s: 3.0, sigma_a: 0.0, g: 0.4 };
+
+/// The table's places: fibres without and with a core.
 pub fn comparison_grid() -> Vec<Grid> {
-    let places =
-        [0.1, 0.3].into_iter().flat_map(|beta| [0.0, 30.0, 60.0].map(|theta_deg| Grid { beta, theta_deg }));
-    places.collect()
+    let mut places = Vec::new();
+    for cored in [false, true] {
+        for beta in [0.1, 0.3] {
+            places.extend([0.0, 30.0, 60.0].map(|theta_deg| Grid { beta, theta_deg, cored }));
+        }
+    }
+    places
+}
+
+/// The models that are held against the fibre of a place.
+fn models_at(at: &Grid) -> Vec<FibreKind> {
+    let told = FibreKind::ALL.iter().copied().filter(|k| like(*k, 0.3, 0.0).is_some());
+    told.filter(|k| at.cored == (*k == FibreKind::Fur)).collect()
 }
 
 /// One lobe of one model at one place. Shares are of the light that arrives.
@@ -122,25 +137,42 @@ fn widths(beta: f64) -> [f64; 2] {
     [variance(beta).sqrt(), logistic_scale(beta) * core::f64::consts::PI / 3.0_f64.sqrt()]
 }
 
-/// The fibre of the table: a mirror turns light by twice the slope, and slopes of GGX facets count as Gaussian, so that their widths
-/// are `alpha = std / sqrt(2)`.
-fn fibre(beta: f64) -> ReferenceFibre {
-    let alpha = widths(beta).map(|std| std * core::f64::consts::FRAC_1_SQRT_2);
+/// Slope widths of its facets along and around the fibre: a mirror turns light by twice the slope, and slopes of GGX facets count as
+/// Gaussian, so that `alpha = std / sqrt(2)`.
+fn facets(beta: f64) -> [f64; 2] {
+    widths(beta).map(|std| std * core::f64::consts::FRAC_1_SQRT_2)
+}
+
+/// The fibre of the table.
+fn fibre(at: Grid) -> ReferenceFibre {
     ReferenceFibre {
         section: Section::CIRCLE,
-        surface: Surface { alpha, eta: ETA },
+        surface: Surface { alpha: facets(at.beta), eta: ETA },
         tilt: 0.0,
         sigma_a: SIGMAS,
-        core: None,
+        core: at.cored.then_some(CORE),
     }
 }
 
 /// A model with the parameters that mean the fibre of the table; none for models that tell no lobes apart.
 fn like(kind: FibreKind, beta: f64, h: f64) -> Option<Fibre<f64>> {
+    let [alpha_m, alpha_n] = facets(beta);
     let [along, around] = widths(beta).map(f64::to_degrees);
     let reals: &[(&str, f64)] = match kind {
         FibreKind::Hair => &[("beta_m", beta), ("beta_n", beta), ("alpha", 0.0)],
+        FibreKind::Fur => &[
+            ("kappa", CORE.kappa),
+            ("sigma_m_s", CORE.sigma_s),
+            ("g", CORE.g),
+            ("beta_m", beta),
+            ("beta_n", beta),
+            ("alpha", 0.0),
+        ],
         FibreKind::ZinkeWeber | FibreKind::DEon => &[("width_m", along), ("width_n", around), ("alpha", 0.0)],
+        FibreKind::EllipticalHair => {
+            &[("width_m", along), ("width_n", around), ("alpha", 0.0), ("aspect", 1.0)]
+        }
+        FibreKind::MicrofacetHair => &[("alpha_m", alpha_m), ("alpha_n", alpha_n), ("tilt", 0.0)],
         // His width is told in the half angle.
         FibreKind::Marschner => &[("beta_r", 0.5 * along), ("alpha_r", 0.0)],
         FibreKind::KajiyaKay
@@ -151,7 +183,8 @@ fn like(kind: FibreKind, beta: f64, h: f64) -> Option<Fibre<f64>> {
         }
     };
     let mut p = ParamBlock { h, ..ParamBlock::<f64>::defaults(kind.params()) };
-    p.spectra[0] = Spectrum(SIGMAS);
+    // A core absorbs nothing here.
+    (p.spectra[0], p.spectra[1]) = (Spectrum(SIGMAS), Spectrum::splat(CORE.sigma_a));
     let numbers = kind.params().iter().filter(|i| i.kind == sparrow_models::ParamKind::Real);
     for (slot, info) in p.reals.iter_mut().zip(numbers) {
         let given = reals.iter().find(|(name, _)| *name == info.name).map(|(_, v)| *v);
@@ -165,7 +198,7 @@ fn like(kind: FibreKind, beta: f64, h: f64) -> Option<Fibre<f64>> {
 
 /// What the reference fibre scatters, over its whole width.
 fn truth(at: Grid, n: usize, rng: &mut Random) -> Histogram {
-    let (mut out, fibre, wo) = (Histogram::new(), fibre(at.beta), view(at.theta_deg));
+    let (mut out, fibre, wo) = (Histogram::new(), fibre(at), view(at.theta_deg));
     out.n = n as f64;
     for _ in 0..n {
         let h = rng.within(-1.0, 1.0);
@@ -202,23 +235,26 @@ pub fn against(
     threads: usize,
     progress: &(dyn Fn(usize, usize) + Sync),
 ) -> Vec<ModelError> {
-    let grid = comparison_grid();
-    let kinds: Vec<FibreKind> =
-        FibreKind::ALL.iter().copied().filter(|k| like(*k, 0.3, 0.0).is_some()).collect();
     // Of each place, the fibre and then the models.
-    let per_place = 1 + kinds.len();
-    let jobs = grid.len() * per_place * PIECES;
+    let rows: Vec<(Grid, Option<FibreKind>)> = comparison_grid()
+        .into_iter()
+        .flat_map(|at| {
+            let models = models_at(&at).into_iter().map(Some);
+            std::iter::once(None).chain(models).map(move |kind| (at, kind))
+        })
+        .collect();
+    let jobs = rows.len() * PIECES;
     let done: Vec<Mutex<Option<Histogram>>> = (0..jobs).map(|_| Mutex::new(None)).collect();
     let (next, finished) = (AtomicUsize::new(0), AtomicUsize::new(0));
     let work = |i: usize| {
         let (piece, row) = (i % PIECES, i / PIECES);
-        let (at, column) = (grid[row / per_place], row % per_place);
+        let (at, kind) = rows[row];
         let mut rng = Random::named(seed, &format!("fibre {row} {piece}"));
         let n = (samples / PIECES).max(1);
-        match column {
-            0 => truth(at, n, &mut rng),
+        match kind {
+            None => truth(at, n, &mut rng),
             // A fourth of the samples: models return no more than they need.
-            k => modelled(kinds[k - 1], at, (n / 4).max(1), &mut rng),
+            Some(kind) => modelled(kind, at, (n / 4).max(1), &mut rng),
         }
     };
     std::thread::scope(|scope| {
@@ -239,19 +275,17 @@ pub fn against(
         }
     });
     let mut pieces = done.into_iter().map(|d| d.into_inner().ok().flatten());
-    let mut rows = (0..grid.len() * per_place).map(|_| {
+    let (mut out, mut truth) = (Vec::new(), Histogram::new());
+    for (at, kind) in rows {
         let mut all = Histogram::new();
         pieces.by_ref().take(PIECES).flatten().for_each(|h| all.join(&h));
-        all
-    });
-    let mut out = Vec::new();
-    for at in &grid {
-        let Some(truth) = rows.next() else { break };
-        for (kind, model) in kinds.iter().zip(rows.by_ref().take(kinds.len())) {
-            for (k, sigma_a) in SIGMAS.into_iter().take(N_SIGMAS).enumerate() {
-                let lobes = [0, 1, 2, 3].map(|lobe| compare(&truth, &model, lobe, k));
-                out.push(ModelError { model: kind.name(), at: *at, sigma_a, lobes });
-            }
+        let Some(kind) = kind else {
+            truth = all;
+            continue;
+        };
+        for (k, sigma_a) in SIGMAS.into_iter().take(N_SIGMAS).enumerate() {
+            let lobes = [0, 1, 2, 3].map(|lobe| compare(&truth, &all, lobe, k));
+            out.push(ModelError { model: kind.name(), at, sigma_a, lobes });
         }
     }
     out
