@@ -184,7 +184,8 @@ fn moving_instances_agree_with_standing_ones() {
             }
             let (s, r) = (moving.surface(&ray, &a), standing.surface(&ray, &b));
             assert!((s.p - r.p).length() < 1e-4 && s.ng.cross(r.ng).length() < 1e-3, "{s:?} {r:?}");
-            assert!(s.time == time && s.spawn(ray.d).time == time && s.spawn_to(ray.o).time == time);
+            let times = [s.time, s.spawn(ray.d).time, s.spawn_to(ray.o).time];
+            assert_eq!(times.map(f32::to_bits), [time.to_bits(); 3]);
         }
     }
     // A ray near an edge or silhouette may go either way.
