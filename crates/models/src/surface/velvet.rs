@@ -59,7 +59,8 @@ impl<R: Real> Velvet<R> {
     }
     #[inline(always)]
     fn lobes(&self, o: LocalDir<R>) -> TwoLobes<R> {
-        let through = (-self.tau / o.cos_theta()).exp();
+        // Of two lobes that are both black the base is chosen, however few digits a number has.
+        let through = (-self.tau / o.cos_theta()).exp().max(R::of(1e-30));
         TwoLobes::new(self.diffuse * through, self.down * (R::ONE - through))
     }
 }
