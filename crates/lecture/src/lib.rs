@@ -16,6 +16,8 @@ mod error;
 mod figure;
 mod formula;
 mod mathml;
+mod measure;
+mod overlay;
 mod photo;
 mod quality;
 mod scenes;
