@@ -8,6 +8,7 @@
 //! [`Quality`] and renders scenes; [`Book`] gathers figures and writes the folder. To add a figure: a file in the folder of its
 //! topic with a function `fn(&Studio) -> Result<Figure, LectureError>`, and a line in the topic's table.
 
+mod ask;
 mod book;
 mod chart;
 mod check;
@@ -21,6 +22,7 @@ mod overlay;
 mod photo;
 mod quality;
 mod scenes;
+mod sketch;
 mod slide;
 mod studio;
 pub mod topic;

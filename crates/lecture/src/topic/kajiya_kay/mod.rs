@@ -1,11 +1,13 @@
-//! Kajiya-Kay.
+//! Kajiya-Kay: slides 18 and 19.
 
-use crate::entry::Topic;
+mod curves;
+
+use crate::entry::{Entry, Topic};
 
 /// The page.
 pub(super) const TOPIC: Topic = Topic {
     id: "kajiya-kay",
     title: "Kajiya-Kay",
     about: "The first model of hair: a diffuse term from the angle between light and tangent, and a specular one from the cone of reflection.",
-    figures: &[],
+    figures: &[Entry { id: "kajiya-kay-terms", title: "The diffuse and the specular term", rows: &[18], make: curves::make }],
 };
