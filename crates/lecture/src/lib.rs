@@ -22,6 +22,7 @@ mod overlay;
 mod photo;
 mod quality;
 mod scenes;
+mod sheet;
 mod sketch;
 mod slide;
 mod studio;

@@ -60,6 +60,10 @@ pub(crate) const SCENES: &[(&str, &[u8])] = scenes! {
     "meshes/helix.ply"
     "meshes/herbert.ply"
     "meshes/horse.ply"
+    "mis/lamp-0.1.pbrt"
+    "mis/lamp-0.3.pbrt"
+    "mis/lamp-0.9.pbrt"
+    "mis/stage.inc"
     "veach-mis.pbrt"
 };
 

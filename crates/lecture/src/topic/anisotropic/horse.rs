@@ -10,7 +10,7 @@ use crate::{Check, Figure, Formula, LectureError, Photo, Picture, Studio};
 
 const SCENE: &str = "lecture/quarterhorse.pbrt";
 /// Towards the lamp, as the scene has it.
-const LAMP: Vec3<f64> = Vec3 { x: -0.5, y: 1.0, z: 1.8 };
+const LAMP: Vec3<f64> = Vec3 { x: 0.5, y: 1.0, z: 1.8 };
 /// Where the camera stands.
 const EYE: Vec3<f64> = Vec3 { x: 1.2, y: 1.5, z: 6.0 };
 /// Points that are looked at on each piece of a hair.
@@ -106,7 +106,7 @@ pub(super) fn make(studio: &Studio<'_>) -> Result<Figure, LectureError> {
     let curve = contour(photo.size, |p| coat.around(p));
     let svg = over(&photo.png(1.0)?, photo.size, 600.0 / f64::from(size[0]), &[Mark::Curve(&curve)]);
     Ok(Figure {
-        caption: "A horse whose coat lies from nose to tail and down the legs, with a lamp at the upper left behind the viewer. Its highlight is \
+        caption: "A horse whose coat lies from nose to tail and down the legs, with a lamp above the viewer. Its highlight is \
             no mirror image of the lamp but a band over flank, shoulder and haunch, where hairs are perpendicular to the half vector.\nOrange: \
             t·h = 0 for the hairs in front of each pixel, averaged over five by five pixels. Body and coat are made by formula."
             .to_owned(),

@@ -21,15 +21,8 @@ fn models() -> [(&'static str, &'static str, String, &'static str); 3] {
 /// Brightness along the equator of the ball, over x in its radius.
 fn equator(photo: &Photo) -> Vec<[f64; 2]> {
     let [w, h] = photo.size;
-    let rows = h / 2 - h / 16..h / 2 + h / 16;
-    let mean = |x: usize| rows.clone().map(|y| photo.grey(x, y)).sum::<f64>() / rows.len() as f64;
+    let mean = |x: usize| photo.mean(x..x + 1, h / 2 - h / 16..h / 2 + h / 16);
     (0..w).map(|x| [1.1 * (2.0 * (x as f64 + 0.5) / w as f64 - 1.0), mean(x)]).collect()
-}
-
-/// Share of the light that comes back from the ball, in thousandths of the picture's whiteness: for comparison alone.
-fn mean(photo: &Photo) -> f64 {
-    let [w, h] = photo.size;
-    (0..w * h).map(|i| photo.grey(i % w, i / w)).sum::<f64>() / (w * h) as f64
 }
 
 /// Slide 17.
@@ -59,9 +52,9 @@ pub(super) fn make(studio: &Studio<'_>) -> Result<Figure, LectureError> {
             table.named(id, [*x, *v]);
         }
         let [at, _] = peak(&profile).unwrap_or([f64::NAN; 2]);
-        figure.checks.push(Check::near(format!("{name}: place of the highlight on the equator, in radii"), at, predicted, 0.06));
+        figure.checks.push(Check::near(format!("{name}: place of the highlight on the equator, in radii"), at, predicted, 0.02));
         let alt = format!("A ball with one bright meridian to the right of its middle, by {name}.");
-        let mean = mean(&photo);
+        let mean = photo.brightness();
         figure.pictures.push(Picture::png(id, alt, photo.png(1.0)?).labelled(format!("{name}; mean brightness {mean:.3}")));
         figure.commands.push(format!("sparrow render scenes/{scene} --material '{material}'"));
     }

@@ -1,11 +1,15 @@
 //! Caustics.
 
-use crate::entry::Topic;
+mod screen;
+
+use crate::entry::{Entry, Topic};
 
 /// The page.
 pub(super) const TOPIC: Topic = Topic {
     id: "caustics",
     title: "Caustics",
     about: "The azimuth of TRT turns back as the ray moves across the fibre; light gathers at the turning point.",
-    figures: &[],
+    figures: &[
+        Entry { id: "caustic-on-screen", title: "The caustic on a screen", rows: &[23], make: screen::make },
+    ],
 };

@@ -4,6 +4,7 @@ mod azimuth;
 mod bundle;
 mod cone;
 mod half_vector;
+mod screen;
 
 use crate::entry::{Entry, Topic};
 
@@ -18,5 +19,6 @@ pub(super) const TOPIC: Topic = Topic {
         Entry { id: "cone-on-sphere", title: "The cone on the sphere of directions", rows: &[12], make: cone::sphere },
         Entry { id: "azimuths", title: "Light around the cone", rows: &[13], make: azimuth::make },
         Entry { id: "half-vector", title: "The rule of the half vector", rows: &[14], make: half_vector::make },
+        Entry { id: "cone-on-screen", title: "The cone on a screen", rows: &[10, 11, 12, 13, 14], make: screen::make },
     ],
 };

@@ -210,8 +210,7 @@ pub(super) fn on_cylinder(studio: &Studio<'_>) -> Result<Figure, LectureError> {
     for (name, label) in [("cylinder-axial", "fibres along the axis: all"), ("cylinder-axial-lifted", "the light lifted by 10°: nothing")] {
         let scene = format!("lecture/{name}.pbrt");
         let photo = studio.render(&scene, size, studio.pick(8, 64))?;
-        let pixels = photo.size[0] * photo.size[1];
-        means.push((0..pixels).map(|i| photo.grey(i % photo.size[0], i / photo.size[0])).sum::<f64>() / pixels as f64);
+        means.push(photo.brightness());
         figure.pictures.push(Picture::png(name, "A cylinder, evenly bright or evenly dark.", photo.png(0.4)?).labelled(label));
         figure.commands.push(format!("sparrow render scenes/{scene}"));
     }

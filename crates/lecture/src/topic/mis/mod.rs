@@ -1,11 +1,17 @@
 //! Multiple importance sampling.
 
-use crate::entry::Topic;
+mod circular;
+mod plates;
+
+use crate::entry::{Entry, Topic};
 
 /// The page.
 pub(super) const TOPIC: Topic = Topic {
     id: "mis",
     title: "Multiple importance sampling",
     about: "Light sampling finds small lights over rough surfaces, sampling of the lobe finds large ones over smooth surfaces. Weights make one estimator of both.",
-    figures: &[],
+    figures: &[
+        Entry { id: "circular-light", title: "A circular light over a rough surface", rows: &[27], make: circular::make },
+        Entry { id: "plate-scene", title: "The plate scene", rows: &[29], make: plates::make },
+    ],
 };
