@@ -36,10 +36,10 @@ pub(crate) fn over(png: &[u8], size: [usize; 2], scale: f64, marks: &[Mark<'_>])
                 out.push_str("\"/>\n");
             }
             Mark::Word([x, y], word) => {
-                let size = 14.0 / scale;
+                let size = 11.0 / scale;
                 let _ = writeln!(
                     out,
-                    "<text x=\"{x:.2}\" y=\"{y:.2}\" fill=\"#ff7a00\" font-family=\"sans-serif\" font-size=\"{size:.2}\">{word}</text>"
+                    "<text x=\"{x:.2}\" y=\"{y:.2}\" fill=\"#b34700\" font-family=\"sans-serif\" font-size=\"{size:.2}\">{word}</text>"
                 );
             }
         }
@@ -70,7 +70,14 @@ mod tests {
     #[test]
     fn the_words_of_the_standard_are_encoded() {
         // RFC 4648, section 10.
-        let pairs = [("", ""), ("f", "Zg=="), ("fo", "Zm8="), ("foo", "Zm9v"), ("foob", "Zm9vYg=="), ("foobar", "Zm9vYmFy")];
+        let pairs = [
+            ("", ""),
+            ("f", "Zg=="),
+            ("fo", "Zm8="),
+            ("foo", "Zm9v"),
+            ("foob", "Zm9vYg=="),
+            ("foobar", "Zm9vYmFy"),
+        ];
         for (text, code) in pairs {
             assert_eq!(base64(text.as_bytes()), code);
         }

@@ -21,7 +21,7 @@ impl Sheet {
     /// An empty sheet for `n` pictures of `cell` pixels, `n_columns` in each row; above each row `head` pixels are left free.
     pub(crate) fn new(cell: [usize; 2], n: usize, n_columns: usize, head: usize) -> Sheet {
         let cell = [cell[0], cell[1] + head];
-        let n_columns = n_columns.clamp(1, n.max(1));
+        let n_columns = n_columns.max(1);
         let rows = n.div_ceil(n_columns);
         let size = [n_columns * (cell[0] + GAP) - GAP, rows * (cell[1] + GAP) - GAP];
         Sheet { size, rgb: vec![GROUND; size[0] * size[1]], cell, n_columns }

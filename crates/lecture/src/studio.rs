@@ -107,7 +107,13 @@ impl<'a> Studio<'a> {
     ///
     /// # Errors
     /// Where it cannot be read or rendered, or was stopped.
-    pub fn render_with(&self, scene: &str, material: &str, size: [u32; 2], spp: u32) -> Result<Photo, LectureError> {
+    pub fn render_with(
+        &self,
+        scene: &str,
+        material: &str,
+        size: [u32; 2],
+        spp: u32,
+    ) -> Result<Photo, LectureError> {
         self.take(self.open_with(scene, &[material.to_owned()])?, size, spp)
     }
     /// Nothing, unless the work is to end.

@@ -69,8 +69,12 @@ const HIND_LEG: [Section; 10] = [
     [-0.44, 0.01, 0.055, 0.05],
     [-0.435, 0.0, 0.005, 0.005],
 ];
-const EAR: [Section; 4] =
-    [[0.79, 1.32, 0.01, 0.01], [0.795, 1.36, 0.03, 0.018], [0.805, 1.41, 0.024, 0.013], [0.81, 1.46, 0.003, 0.003]];
+const EAR: [Section; 4] = [
+    [0.79, 1.32, 0.01, 0.01],
+    [0.795, 1.36, 0.03, 0.018],
+    [0.805, 1.41, 0.024, 0.013],
+    [0.81, 1.46, 0.003, 0.003],
+];
 const TAIL: [Section; 6] = [
     [-0.56, 0.9, 0.01, 0.01],
     [-0.62, 0.87, 0.03, 0.03],
@@ -134,7 +138,8 @@ impl Tube {
 
 /// The mesh; v runs the way that the coat lies, from nose to tail and down the legs.
 pub(super) fn ply() -> String {
-    let grids = TUBES.each_ref().map(|tube| Grid { cells: tube.cells, vertex: Box::new(|i, j| tube.vertex(i, j)) });
+    let grids =
+        TUBES.each_ref().map(|tube| Grid { cells: tube.cells, vertex: Box::new(|i, j| tube.vertex(i, j)) });
     grid::ply_of(&grids)
 }
 

@@ -9,7 +9,8 @@ use crate::{Check, Figure, Formula, LectureError, Photo, Picture, Studio};
 const ALPHA: [f64; 2] = [0.05, 0.4];
 /// Middle and half side of each body's part of the picture, in units of its width, and the direction of the highlight in degrees, which
 /// is across the brush there.
-const BODIES: [(&str, f64, f64); 3] = [("ball", 1.0 / 6.0, 90.0), ("cylinder", 0.5, 90.0), ("disc", 5.0 / 6.0, LIGHT_DEG)];
+const BODIES: [(&str, f64, f64); 3] =
+    [("ball", 1.0 / 6.0, 90.0), ("cylinder", 0.5, 90.0), ("disc", 5.0 / 6.0, LIGHT_DEG)];
 /// Direction of the light around the line of sight: atan2(0.25, 0.35).
 const LIGHT_DEG: f64 = 35.54;
 
@@ -29,7 +30,9 @@ fn models() -> [(&'static str, String); 3] {
         ("Ward", format!(r#""brushed" "string type" "ward" "float alpha_x" {x} "float alpha_y" {y} {matt}"#)),
         (
             "Ashikhmin-Shirley",
-            format!(r#""brushed" "string type" "ashikhmin_shirley" "float exponent_x" {nx} "float exponent_y" {ny} {matt}"#),
+            format!(
+                r#""brushed" "string type" "ashikhmin_shirley" "float exponent_x" {nx} "float exponent_y" {ny} {matt}"#
+            ),
         ),
     ]
 }
@@ -65,14 +68,24 @@ pub(super) fn make(studio: &Studio<'_>) -> Result<Figure, LectureError> {
         for (body, middle, across) in BODIES {
             let Moments { aspect, direction_deg } =
                 moments(&photo, middle).unwrap_or(Moments { aspect: f64::NAN, direction_deg: f64::NAN });
-            figure.checks.push(Check::at_least(format!("{name}, {body}: length of the highlight over its width"), aspect, 2.0));
+            figure.checks.push(Check::at_least(
+                format!("{name}, {body}: length of the highlight over its width"),
+                aspect,
+                2.0,
+            ));
             // The highlight of a ball is curved, like the meridian it lies on.
-            figure.checks.push(Check::near(format!("{name}, {body}: direction of its length, in degrees"), direction_deg, across, 6.0));
+            figure.checks.push(Check::near(
+                format!("{name}, {body}: direction of its length, in degrees"),
+                direction_deg,
+                across,
+                6.0,
+            ));
             let words = [name, body].map(|w| sparrow_plot::draw::table::Field::Text(w.to_owned()));
             let numbers = [aspect, direction_deg, across].map(sparrow_plot::draw::table::Field::Number);
             table.rows.push(words.into_iter().chain(numbers).collect());
         }
-        let alt = format!("A brushed ball, cylinder and disc by {name}; each highlight is long across the brush.");
+        let alt =
+            format!("A brushed ball, cylinder and disc by {name}; each highlight is long across the brush.");
         let id = name.to_lowercase();
         figure.pictures.push(Picture::png(&id, alt, photo.png(0.6)?).labelled(name));
         figure.commands.push(format!("sparrow render scenes/{SCENE} --material '{material}'"));

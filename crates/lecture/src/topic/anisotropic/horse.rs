@@ -42,7 +42,9 @@ impl Coat {
                     let p = a + (b - a) * ((k as f64 + 0.5) / STEPS as f64);
                     let v = EYE - p;
                     let h = (v.normalized() + LAMP.normalized()).normalized();
-                    let Some(at) = photo.place([p.x, p.y, p.z]).and_then(|q| pixel(photo.size, q)) else { continue };
+                    let Some(at) = photo.place([p.x, p.y, p.z]).and_then(|q| pixel(photo.size, q)) else {
+                        continue;
+                    };
                     if v.length() < nearest[at].0 {
                         nearest[at] = (v.length(), (b - a).normalized().dot(h));
                     }

@@ -12,9 +12,24 @@ const THREAD: &str = r#""rgb diffuse" [ 0.3 0.12 0.1 ] "rgb specular" [ 0.4 0.4 
 fn models() -> [(&'static str, &'static str, String, &'static str); 3] {
     let of = |kind: &str, own: &str| format!(r#""thread" "string type" "{kind}" {own} {THREAD}"#);
     [
-        ("lecture/wound.pbrt", "Kajiya-Kay, on each thread", of("kajiya_kay", r#""float exponent" 60"#), "kajiya-kay"),
-        ("lecture/wound-surface.pbrt", "Poulin-Fournier", of("poulin_fournier", r#""float beta" 0.15"#), "poulin-fournier"),
-        ("lecture/wound-surface.pbrt", "Ward", of("ward", r#""float alpha_x" 0.15 "float alpha_y" 0.8"#), "ward"),
+        (
+            "lecture/wound.pbrt",
+            "Kajiya-Kay, on each thread",
+            of("kajiya_kay", r#""float exponent" 60"#),
+            "kajiya-kay",
+        ),
+        (
+            "lecture/wound-surface.pbrt",
+            "Poulin-Fournier",
+            of("poulin_fournier", r#""float beta" 0.15"#),
+            "poulin-fournier",
+        ),
+        (
+            "lecture/wound-surface.pbrt",
+            "Ward",
+            of("ward", r#""float alpha_x" 0.15 "float alpha_y" 0.8"#),
+            "ward",
+        ),
     ]
 }
 
@@ -52,10 +67,17 @@ pub(super) fn make(studio: &Studio<'_>) -> Result<Figure, LectureError> {
             table.named(id, [*x, *v]);
         }
         let [at, _] = peak(&profile).unwrap_or([f64::NAN; 2]);
-        figure.checks.push(Check::near(format!("{name}: place of the highlight on the equator, in radii"), at, predicted, 0.02));
+        figure.checks.push(Check::near(
+            format!("{name}: place of the highlight on the equator, in radii"),
+            at,
+            predicted,
+            0.02,
+        ));
         let alt = format!("A ball with one bright meridian to the right of its middle, by {name}.");
         let mean = photo.brightness();
-        figure.pictures.push(Picture::png(id, alt, photo.png(1.0)?).labelled(format!("{name}; mean brightness {mean:.3}")));
+        figure.pictures.push(
+            Picture::png(id, alt, photo.png(1.0)?).labelled(format!("{name}; mean brightness {mean:.3}")),
+        );
         figure.commands.push(format!("sparrow render scenes/{scene} --material '{material}'"));
     }
     figure.table = Some(table);

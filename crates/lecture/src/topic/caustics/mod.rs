@@ -9,7 +9,10 @@ pub(super) const TOPIC: Topic = Topic {
     id: "caustics",
     title: "Caustics",
     about: "The azimuth of TRT turns back as the ray moves across the fibre; light gathers at the turning point.",
-    figures: &[
-        Entry { id: "caustic-on-screen", title: "The caustic on a screen", rows: &[23], make: screen::make },
-    ],
+    figures: &[Entry {
+        id: "caustic-on-screen",
+        title: "The caustic on a screen",
+        rows: &[23],
+        make: screen::make,
+    }],
 };

@@ -31,7 +31,8 @@ fn profile(photo: &Photo) -> Vec<[f64; 2]> {
     let mut classes = vec![(0.0, 0.0); 30];
     for (x, y) in (0..photo.size[1]).flat_map(|y| (0..photo.size[0]).map(move |x| (x, y))) {
         let [phi, theta] = angles(photo, x, y);
-        if let (true, Some((sum, n))) = ((theta + THETA_DEG).abs() < 5.0, classes.get_mut(phi.abs() as usize)) {
+        if let (true, Some((sum, n))) = ((theta + THETA_DEG).abs() < 5.0, classes.get_mut(phi.abs() as usize))
+        {
             *sum += photo.grey(x, y);
             *n += 1.0;
         }
@@ -56,7 +57,10 @@ fn predicted() -> f64 {
             let (gamma_i, gamma_t) = (Real::asin(h), Real::asin(h / eta));
             let cos_i = (1.0 - h * h).sqrt() * cos;
             let cos_t = (1.0 - (1.0 - cos_i * cos_i) / (ETA * ETA)).sqrt();
-            let (s, p) = ((cos_i - ETA * cos_t) / (cos_i + ETA * cos_t), (ETA * cos_i - cos_t) / (ETA * cos_i + cos_t));
+            let (s, p) = (
+                (cos_i - ETA * cos_t) / (cos_i + ETA * cos_t),
+                (ETA * cos_i - cos_t) / (ETA * cos_i + cos_t),
+            );
             let f = 0.5 * (s * s + p * p);
             [4.0 * gamma_t - 2.0 * gamma_i, (1.0 - f) * (1.0 - f) * f]
         })
@@ -81,7 +85,9 @@ pub(super) fn make(studio: &Studio<'_>) -> Result<Figure, LectureError> {
     // The model that is rendered absorbs a little; its name is asked for so that the figure fails where it is renamed.
     fibre("hair")?;
     let hair = |eta: f64| {
-        format!(r#""fibre" "string type" "hair" "rgb sigma_a" [ 0.05 0.05 0.05 ] "float eta" {eta} "float beta_m" {BETA_N} "float beta_n" {BETA_N} "float alpha" 0"#)
+        format!(
+            r#""fibre" "string type" "hair" "rgb sigma_a" [ 0.05 0.05 0.05 ] "float eta" {eta} "float beta_m" {BETA_N} "float beta_n" {BETA_N} "float alpha" 0"#
+        )
     };
     let figure = Figure {
         caption: "A glass fibre stands upright in a dome that serves as screen; the lamp shines on it from ten degrees above the horizon, so that all light that leaves \

@@ -37,7 +37,8 @@ impl Classes {
         }
     }
     fn means(&self) -> Vec<[f64; 2]> {
-        let of = |(k, (sum, n)): (usize, &(f64, f64))| (*n > 0.0).then(|| [(k as f64 + 0.5) * self.1, sum / n]);
+        let of =
+            |(k, (sum, n)): (usize, &(f64, f64))| (*n > 0.0).then(|| [(k as f64 + 0.5) * self.1, sum / n]);
         self.0.iter().enumerate().filter_map(of).collect()
     }
 }
@@ -62,12 +63,14 @@ pub(super) fn make(studio: &Studio<'_>) -> Result<Figure, LectureError> {
     }
     let profile = smoothed(&angles.means(), 1);
     let [at, height] = peak(&profile).unwrap_or([f64::NAN; 2]);
-    let background = profile.iter().filter(|p| (p[0] - BEAM_DEG).abs() > 20.0).map(|p| p[1]).fold(0.0, f64::max);
+    let background =
+        profile.iter().filter(|p| (p[0] - BEAM_DEG).abs() > 20.0).map(|p| p[1]).fold(0.0, f64::max);
     // 0.25 cos(phi / 2), scaled to the same sum.
     let around = azimuths.means();
     let law = |phi: f64| 0.25 * Real::cos(0.5 * phi.to_radians());
     let scale = around.iter().map(|p| p[1]).sum::<f64>() / around.iter().map(|p| law(p[0])).sum::<f64>();
-    let off = around.iter().map(|[phi, v]| (v / (scale * law(*phi)) - 1.0).powi(2)).sum::<f64>() / around.len() as f64;
+    let off = around.iter().map(|[phi, v]| (v / (scale * law(*phi)) - 1.0).powi(2)).sum::<f64>()
+        / around.len() as f64;
     let mut table = Table::new(["over", "angle_deg", "brightness"]);
     profile.iter().for_each(|p| table.named("angle with the fibre", *p));
     around.iter().for_each(|p| table.named("azimuth from the lamp", *p));
@@ -96,5 +99,8 @@ pub(super) fn make(studio: &Studio<'_>) -> Result<Figure, LectureError> {
         ],
         ..Figure::default()
     };
-    Ok(figure.with("beam", "45°").with("facets", "α = 0.04, F = 1").with("fibre's radius", "0.015 of the dome's"))
+    Ok(figure
+        .with("beam", "45°")
+        .with("facets", "α = 0.04, F = 1")
+        .with("fibre's radius", "0.015 of the dome's"))
 }

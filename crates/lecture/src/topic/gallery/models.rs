@@ -46,9 +46,13 @@ fn settings(p: &ParamInfo, word: &str) -> Vec<(String, String)> {
     let ends = [p.soft[0], high].into_iter().filter(|v| (v - p.default).abs() > 1e-9);
     ends.map(|v| {
         let words = match p.kind {
-            ParamKind::Real if word.ends_with("roughness") && word != p.name => format!(r#""float {word}" {v} "bool remaproughness" false"#),
+            ParamKind::Real if word.ends_with("roughness") && word != p.name => {
+                format!(r#""float {word}" {v} "bool remaproughness" false"#)
+            }
             ParamKind::Real => format!(r#""float {word}" {v}"#),
-            ParamKind::Albedo | ParamKind::Unbounded | ParamKind::Choice(_) => format!(r#""rgb {word}" [ {v} {v} {v} ]"#),
+            ParamKind::Albedo | ParamKind::Unbounded | ParamKind::Choice(_) => {
+                format!(r#""rgb {word}" [ {v} {v} {v} ]"#)
+            }
         };
         (v.to_string(), words)
     })
@@ -65,7 +69,11 @@ pub(super) fn fibres(studio: &Studio<'_>) -> Result<Figure, LectureError> {
     gallery(studio, "lecture/model-fibre.pbrt", |k| matches!(k, ModelKind::Fibre(_)))
 }
 
-fn gallery(studio: &Studio<'_>, scene: &str, belongs: impl Fn(&ModelKind) -> bool) -> Result<Figure, LectureError> {
+fn gallery(
+    studio: &Studio<'_>,
+    scene: &str,
+    belongs: impl Fn(&ModelKind) -> bool,
+) -> Result<Figure, LectureError> {
     let (side, spp) = (studio.pick(24, 96), studio.pick(1, 32));
     let mut table = Table::new(["model", "setting", "brightness"]);
     let mut figure = Figure {
@@ -85,7 +93,11 @@ fn gallery(studio: &Studio<'_>, scene: &str, belongs: impl Fn(&ModelKind) -> boo
             let photo = studio.render_with(scene, material, [side; 2], spp)?;
             let brightness = photo.brightness();
             faults += u32::from(!(brightness.is_finite() && brightness > 0.0));
-            table.rows.push(vec![Field::Text(kind.name().to_owned()), Field::Text(setting.clone()), Field::Number(brightness)]);
+            table.rows.push(vec![
+                Field::Text(kind.name().to_owned()),
+                Field::Text(setting.clone()),
+                Field::Number(brightness),
+            ]);
             sheet.put(i, &photo, 1.0);
             photos.push(photo);
         }
@@ -99,13 +111,24 @@ fn gallery(studio: &Studio<'_>, scene: &str, belongs: impl Fn(&ModelKind) -> boo
             .collect();
         let marks: Vec<Mark<'_>> = words.iter().map(|(at, s)| Mark::Word(*at, s)).collect();
         let svg = over(&sheet.png()?, sheet.size, scale, &marks);
-        let alt = format!("{} pictures of a ball of {}, each with another parameter changed.", all.len(), kind.name());
-        figure.pictures.push(Picture::svg(kind.name(), alt, svg).labelled(format!("{}: {}", kind.name(), kind.about().summary)));
+        let alt = format!(
+            "{} pictures of a ball of {}, each with another parameter changed.",
+            all.len(),
+            kind.name()
+        );
+        figure.pictures.push(Picture::svg(kind.name(), alt, svg).labelled(format!(
+            "{}: {}",
+            kind.name(),
+            kind.about().summary
+        )));
     }
     let what = "models whose parameters change their picture";
     figure.checks.push(Check::at_least(what, f64::from(shown), models.len() as f64));
     figure.checks.push(Check::at_most("pictures that are black or no numbers", f64::from(faults), 0.0));
-    figure.commands.push(format!(r#"sparrow render scenes/{scene} --material '"look" "string type" "{}"'"#, if scene.contains("fibre") { "hair" } else { "charlie" }));
+    figure.commands.push(format!(
+        r#"sparrow render scenes/{scene} --material '"look" "string type" "{}"'"#,
+        if scene.contains("fibre") { "hair" } else { "charlie" }
+    ));
     figure.table = Some(table);
     Ok(figure)
 }

@@ -17,7 +17,11 @@ const MODELS: [(&str, &str, bool); 4] = [
     ("Kajiya-Kay", r#""string type" "kajiya_kay" "rgb specular" [ 0.2 0.2 0.2 ] "float exponent" 60"#, false),
     ("Marschner", r#""string type" "marschner" "float alpha_r" -6 "float beta_r" 7"#, true),
     ("Chiang", r#""string type" "hair" "float beta_m" 0.1 "float beta_n" 0.25 "float alpha" 3"#, true),
-    ("Huang", r#""string type" "microfacet_hair" "float tilt" 3 "float alpha_m" 0.15 "float alpha_n" 0.15"#, true),
+    (
+        "Huang",
+        r#""string type" "microfacet_hair" "float tilt" 3 "float alpha_m" 0.15 "float alpha_n" 0.15"#,
+        true,
+    ),
 ];
 
 fn materials(words: &str, absorbs: bool) -> Vec<String> {
@@ -62,14 +66,33 @@ pub(super) fn make(studio: &Studio<'_>) -> Result<Figure, LectureError> {
             let texts = [name, light].map(|t| Text(t.to_owned()));
             table.rows.push(texts.into_iter().chain(v.map(Number)).collect());
         }
-        checks.push(Check::at_most(format!("{name}: black over brown, light from the front"), values[0][2] / values[0][1], 1.0));
-        checks.push(Check::at_most(format!("{name}: brown over blonde, light from the front"), values[0][1] / values[0][0], 1.0));
+        checks.push(Check::at_most(
+            format!("{name}: black over brown, light from the front"),
+            values[0][2] / values[0][1],
+            1.0,
+        ));
+        checks.push(Check::at_most(
+            format!("{name}: brown over blonde, light from the front"),
+            values[0][1] / values[0][0],
+            1.0,
+        ));
         let through = rim(&photos[2]) / values[0][0];
-        let what = format!("{name}: brightest column at the rim of the blonde tress with light from behind, over the tress with light from the front");
-        checks.push(if absorbs { Check::at_least(what, through, 1.0) } else { Check::at_most(what, through, 1.0) });
+        let what = format!(
+            "{name}: brightest column at the rim of the blonde tress with light from behind, over the tress with light from the front"
+        );
+        checks.push(if absorbs {
+            Check::at_least(what, through, 1.0)
+        } else {
+            Check::at_most(what, through, 1.0)
+        });
         let pairs: Vec<(&Photo, f32)> = photos.iter().map(|p| (p, 1.0)).collect();
-        let alt = format!("Three times three tresses by {name}: blonde, brown and black, lit from the front, the side and behind.");
-        pictures.push(Picture::png(&name.to_lowercase(), alt, side_by_side(&pairs)?).labelled(format!("{name}: light from the front, the side, behind")));
+        let alt = format!(
+            "Three times three tresses by {name}: blonde, brown and black, lit from the front, the side and behind."
+        );
+        pictures.push(
+            Picture::png(&name.to_lowercase(), alt, side_by_side(&pairs)?)
+                .labelled(format!("{name}: light from the front, the side, behind")),
+        );
         commands.push(format!("sparrow render scenes/fibres/tress-back.pbrt --material '{}'", materials[0]));
     }
     let figure = Figure {

@@ -134,7 +134,11 @@ const REACH: f64 = 5.0;
 const TOLERANCE: f64 = 1.0;
 
 /// Pictures of the bodies with their curves, their ridges, and the check of each.
-fn shoot(studio: &Studio<'_>, bodies: &[Body], figure: &mut Figure) -> Result<Vec<(Photo, Vec<Ridge>)>, LectureError> {
+fn shoot(
+    studio: &Studio<'_>,
+    bodies: &[Body],
+    figure: &mut Figure,
+) -> Result<Vec<(Photo, Vec<Ridge>)>, LectureError> {
     let mut table = Table::new(["scene", "x_px", "y_px", "ridge_minus_curve_px"]);
     let mut found = Vec::new();
     for body in bodies {
@@ -152,8 +156,16 @@ fn shoot(studio: &Studio<'_>, bodies: &[Body], figure: &mut Figure) -> Result<Ve
             table.named(body.scene, [r.place[0], r.place[1], r.distance]);
         }
         let off = ridges.iter().map(|r| r.distance.abs()).fold(0.0, f64::max);
-        figure.checks.push(Check::at_least(format!("places of {} where the ridge was found", body.scene), ridges.len() as f64, f64::from(side) / 8.0));
-        figure.checks.push(Check::at_most(format!("largest distance of ridge and curve on {}, in pixels", body.scene), off, TOLERANCE));
+        figure.checks.push(Check::at_least(
+            format!("places of {} where the ridge was found", body.scene),
+            ridges.len() as f64,
+            f64::from(side) / 8.0,
+        ));
+        figure.checks.push(Check::at_most(
+            format!("largest distance of ridge and curve on {}, in pixels", body.scene),
+            off,
+            TOLERANCE,
+        ));
         let svg = over(&photo.png(1.0)?, photo.size, 400.0 / f64::from(side), &[Mark::Curve(&curve)]);
         figure.pictures.push(Picture::svg(body.scene, body.alt, svg).labelled(body.label));
         figure.commands.push(format!("sparrow render scenes/{scene}"));
@@ -165,8 +177,14 @@ fn shoot(studio: &Studio<'_>, bodies: &[Body], figure: &mut Figure) -> Result<Ve
 
 fn begun(caption: &str) -> Figure {
     Figure {
-        caption: format!("{caption}\nOrange: t·h = 0, computed from the body's shape alone. Change the first number of the light's Rotate in a scene and render it again."),
-        formulas: vec![Formula::new("t(x) * h(x) = 0 , h = frac{l + v}{|l + v|}", "[LuKoenderinkKappers2000]", "lecture/src/topic/highlights/curves.rs: condition")],
+        caption: format!(
+            "{caption}\nOrange: t·h = 0, computed from the body's shape alone. Change the first number of the light's Rotate in a scene and render it again."
+        ),
+        formulas: vec![Formula::new(
+            "t(x) * h(x) = 0 , h = frac{l + v}{|l + v|}",
+            "[LuKoenderinkKappers2000]",
+            "lecture/src/topic/highlights/curves.rs: condition",
+        )],
         ..Figure::default()
     }
 }
@@ -190,8 +208,18 @@ pub(super) fn sphere(studio: &Studio<'_>) -> Result<Figure, LectureError> {
         let fitted = Circle::fit(&points).unwrap_or(Circle { centre: [f64::NAN; 2], radius: f64::NAN });
         // A quarter of a pixel.
         let tolerance = 0.25 * 2.2 / photo.size[0] as f64;
-        figure.checks.push(Check::near("radius of the circle in gnomonic projection, tan(θh)/2", fitted.radius, radius, tolerance));
-        figure.checks.push(Check::near("its middle, on the way from the pole to h", fitted.centre[0], radius, tolerance));
+        figure.checks.push(Check::near(
+            "radius of the circle in gnomonic projection, tan(θh)/2",
+            fitted.radius,
+            radius,
+            tolerance,
+        ));
+        figure.checks.push(Check::near(
+            "its middle, on the way from the pole to h",
+            fitted.centre[0],
+            radius,
+            tolerance,
+        ));
         figure.checks.push(Check::near("its middle, across that way", fitted.centre[1], 0.0, tolerance));
     }
     Ok(figure.with("θh", "25°").with("width along the fibres", "0.02").with("width across", "0.9"))
@@ -207,14 +235,23 @@ pub(super) fn on_cylinder(studio: &Studio<'_>) -> Result<Figure, LectureError> {
     shoot(studio, &CYLINDER, &mut figure)?;
     let size = [studio.pick(64, 400); 2];
     let mut means = Vec::new();
-    for (name, label) in [("cylinder-axial", "fibres along the axis: all"), ("cylinder-axial-lifted", "the light lifted by 10°: nothing")] {
+    for (name, label) in [
+        ("cylinder-axial", "fibres along the axis: all"),
+        ("cylinder-axial-lifted", "the light lifted by 10°: nothing"),
+    ] {
         let scene = format!("lecture/{name}.pbrt");
         let photo = studio.render(&scene, size, studio.pick(8, 64))?;
         means.push(photo.brightness());
-        figure.pictures.push(Picture::png(name, "A cylinder, evenly bright or evenly dark.", photo.png(0.4)?).labelled(label));
+        figure.pictures.push(
+            Picture::png(name, "A cylinder, evenly bright or evenly dark.", photo.png(0.4)?).labelled(label),
+        );
         figure.commands.push(format!("sparrow render scenes/{scene}"));
     }
-    figure.checks.push(Check::at_least("fibres along the axis: mean brightness over that with the light lifted by 10°", means[0] / means[1], 30.0));
+    figure.checks.push(Check::at_least(
+        "fibres along the axis: mean brightness over that with the light lifted by 10°",
+        means[0] / means[1],
+        30.0,
+    ));
     Ok(figure.with("θh", "25°").with("width along the fibres", "0.02").with("width across", "0.9"))
 }
 

@@ -11,7 +11,12 @@ pub(super) const TOPIC: Topic = Topic {
     about: "Where the tangent of fibres or grooves is perpendicular to the half vector there is the highlight, whatever the body.",
     figures: &[
         Entry { id: "highlight-sphere", title: "Highlights on a sphere", rows: &[15], make: curves::sphere },
-        Entry { id: "highlight-cylinder", title: "Highlights on a cylinder", rows: &[15, 16], make: curves::on_cylinder },
+        Entry {
+            id: "highlight-cylinder",
+            title: "Highlights on a cylinder",
+            rows: &[15, 16],
+            make: curves::on_cylinder,
+        },
         Entry { id: "highlight-disc", title: "Highlights on a disc", rows: &[16], make: curves::on_disc },
     ],
 };

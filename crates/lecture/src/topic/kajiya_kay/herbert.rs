@@ -49,8 +49,14 @@ pub(super) fn make(studio: &Studio<'_>) -> Result<Figure, LectureError> {
         r#"sparrow render scenes/lecture/herbert-chiang.pbrt --material '"fur" "string type" "hair" "float eumelanin" 0.05 "float pheomelanin" 0.1'"#
             .to_owned(),
     );
-    let chiang = furnace(studio, r#""hair" "string type" "hair" "rgb sigma_a" [ 0 0 0 ] "float beta_m" 0.3 "float beta_n" 0.3 "float alpha" 0"#)?;
-    let kay = furnace(studio, r#""hair" "string type" "kajiya_kay" "rgb diffuse" [ 0.5 0.5 0.5 ] "rgb specular" [ 0.5 0.5 0.5 ]"#)?;
+    let chiang = furnace(
+        studio,
+        r#""hair" "string type" "hair" "rgb sigma_a" [ 0 0 0 ] "float beta_m" 0.3 "float beta_n" 0.3 "float alpha" 0"#,
+    )?;
+    let kay = furnace(
+        studio,
+        r#""hair" "string type" "kajiya_kay" "rgb diffuse" [ 0.5 0.5 0.5 ] "rgb specular" [ 0.5 0.5 0.5 ]"#,
+    )?;
     let figure = Figure {
         caption: "The same strands and lamps, one in front and one behind at the upper left. Kajiya and Kay's hair is matt with a highlight: coloured like paint, with shadows between tufts. In \
             the fibre of Chiang and others light passes through and from hair to hair: the rim before the rear lamp glows, the body is darker and deeper in colour.\n\

@@ -11,7 +11,12 @@ pub(super) const TOPIC: Topic = Topic {
     title: "Kajiya-Kay",
     about: "The first model of hair: a diffuse term from the angle between light and tangent, and a specular one from the cone of reflection.",
     figures: &[
-        Entry { id: "kajiya-kay-terms", title: "The diffuse and the specular term", rows: &[18], make: curves::make },
+        Entry {
+            id: "kajiya-kay-terms",
+            title: "The diffuse and the specular term",
+            rows: &[18],
+            make: curves::make,
+        },
         Entry { id: "herbert", title: "Herbert", rows: &[19], make: herbert::make },
     ],
 };

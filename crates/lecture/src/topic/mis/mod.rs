@@ -11,7 +11,12 @@ pub(super) const TOPIC: Topic = Topic {
     title: "Multiple importance sampling",
     about: "Light sampling finds small lights over rough surfaces, sampling of the lobe finds large ones over smooth surfaces. Weights make one estimator of both.",
     figures: &[
-        Entry { id: "circular-light", title: "A circular light over a rough surface", rows: &[27], make: circular::make },
+        Entry {
+            id: "circular-light",
+            title: "A circular light over a rough surface",
+            rows: &[27],
+            make: circular::make,
+        },
         Entry { id: "plate-scene", title: "The plate scene", rows: &[29], make: plates::make },
     ],
 };

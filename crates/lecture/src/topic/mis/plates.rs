@@ -63,7 +63,8 @@ pub(super) fn make(studio: &Studio<'_>) -> Result<Figure, LectureError> {
     let size = studio.pick([120, 80], [480, 320]);
     // Samples for errors, and few for the pictures, whose noise is to be seen.
     let spp = studio.pick(64, 256);
-    let mut table = Table::new(["plate", "lamp", "light_only", "bsdf_only", "balance", "power", "maximum", "optimal"]);
+    let mut table =
+        Table::new(["plate", "lamp", "light_only", "bsdf_only", "balance", "power", "maximum", "optimal"]);
     let (mut pictures, mut all) = (Vec::new(), Vec::new());
     for (id, label, mis) in WAYS {
         // Equal totals: a pair of both techniques counts twice.
@@ -76,8 +77,12 @@ pub(super) fn make(studio: &Studio<'_>) -> Result<Figure, LectureError> {
         };
         all.push(errors(&take(spp / pairs)?));
         let photo = take(16 / pairs)?;
-        let alt = format!("Four plates that mirror four lamps, by {label}: grainy where the technique fails.");
-        pictures.push(Picture::png(id, alt, photo.png(1.0)?).labelled(format!("{label}, {} samples a pixel", 16 / pairs)));
+        let alt =
+            format!("Four plates that mirror four lamps, by {label}: grainy where the technique fails.");
+        pictures.push(
+            Picture::png(id, alt, photo.png(1.0)?)
+                .labelled(format!("{label}, {} samples a pixel", 16 / pairs)),
+        );
     }
     let (mut worst, mut steps) = (0.0_f64, 0.0_f64);
     for (plate, lamp) in (0..4).flat_map(|p| (0..4).map(move |l| (p, l))) {
