@@ -1,11 +1,17 @@
-//! Caustics.
+//! Caustics: slide 23.
 
-use crate::entry::Topic;
+mod density;
+mod fan;
+
+use crate::entry::{Entry, Topic};
 
 /// The page.
 pub(super) const TOPIC: Topic = Topic {
     id: "caustics",
     title: "Caustics",
     about: "The azimuth of TRT turns back as the ray moves across the fibre; light gathers at the turning point.",
-    figures: &[],
+    figures: &[
+        Entry { id: "caustic-angle", title: "Where TRT turns back", rows: &[23], make: fan::make },
+        Entry { id: "caustic-density", title: "Light around a caustic", rows: &[23], make: density::make },
+    ],
 };

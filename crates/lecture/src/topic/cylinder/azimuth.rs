@@ -9,8 +9,7 @@ use sparrow_models::{Bcsdf, Uniforms};
 use sparrow_plot::draw::axis::Axis;
 use sparrow_stats::{Cell, Random, chi_square};
 
-use super::bundle::inclined;
-use crate::ask::fibre;
+use crate::ask::{fibre, inclined};
 use crate::chart::{self, Chart, Curve, steps};
 use crate::{Check, Figure, Formula, LectureError, Picture, Studio};
 

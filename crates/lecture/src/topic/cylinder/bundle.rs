@@ -6,7 +6,7 @@ use sparrow_plot::draw::svg::Pen;
 use sparrow_plot::draw::table::Table;
 use sparrow_plot::draw::theme::LIGHT;
 
-use crate::ask::fibre;
+use crate::ask::{fibre, inclined};
 use crate::sketch::{Sketch, turn};
 use crate::{Check, Figure, Formula, LectureError, Picture, Studio};
 
@@ -18,12 +18,6 @@ const KNOWN: [(f64, [f64; 3]); 4] = [
     (20.0, [-0.573_576_436_351_046, 0.769_751_131_320_057_5, 0.280_166_499_593_235_6]),
     (60.0, [-0.573_576_436_351_046, -0.142_244_259_722_923_87, 0.806_707_284_111_598_8]),
 ];
-
-/// The direction of inclination and azimuth in degrees.
-pub(super) fn inclined(theta: f64, phi: f64) -> LocalDir<f64> {
-    let ((s, c), (t, d)) = (Real::sin_cos(theta.to_radians()), Real::sin_cos(phi.to_radians()));
-    LocalDir::new(vec3(s, c * d, c * t))
-}
 
 /// Where a mirror cylinder sends light from `from` that meets it at the offset `h`.
 pub(super) fn reflected(from: LocalDir<f64>, h: f64) -> Result<LocalDir<f64>, LectureError> {

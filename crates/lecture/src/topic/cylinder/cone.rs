@@ -8,8 +8,8 @@ use sparrow_plot::draw::table::Table;
 use sparrow_plot::draw::theme::LIGHT;
 use sparrow_stats::Random;
 
-use super::bundle::{inclined, reflected};
-use crate::ask::fibre;
+use super::bundle::reflected;
+use crate::ask::{fibre, inclined};
 use crate::sketch::{Sketch, turn};
 use crate::{Check, Figure, Formula, LectureError, Picture, Studio};
 

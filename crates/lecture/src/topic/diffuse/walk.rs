@@ -3,8 +3,9 @@
 use core::f64::consts::PI;
 
 use sparrow_math::LocalDir;
-use sparrow_models::{Bsdf, Surface};
+use sparrow_models::{Bsdf, Surface, Uniforms};
 use sparrow_plot::draw::axis::Axis;
+use sparrow_stats::Random;
 
 use crate::ask::{f_in_plane, surface};
 use crate::chart::{self, Chart, Curve, steps};
@@ -22,15 +23,28 @@ const SURFACES: [(&str, &str, bool); 6] = [
 /// The light's angle in degrees.
 const PSI: f64 = 45.0;
 
-/// `min / max` of the value over viewers up to 75 degrees in the plane of incidence.
-fn flatness(model: &Surface<f64>) -> f64 {
-    let values = steps(-75.0, 75.0, 150).into_iter().map(|t| f_in_plane(model, PSI, t));
-    let (least, most) = values.fold((f64::INFINITY, 0.0_f64), |(a, b), f| (a.min(f), b.max(f)));
-    least / most
+/// Rings around the normal, of equal projected solid angle.
+const RINGS: usize = 8;
+
+/// Albedo, and flatness: least over greatest share of the light in the rings. A Lambertian surface has the flatness 1.
+fn spread(model: &Surface<f64>, samples: u32) -> [f64; 2] {
+    let view = LocalDir::from_angles(PSI.to_radians(), 0.0);
+    let mut random = Random::named(0, "spread");
+    let mut rings = [0.0_f64; RINGS];
+    for _ in 0..samples {
+        let u = Uniforms { lobe: random.uniform(), dir: [random.uniform(), random.uniform()] };
+        let s = model.sample(view, u);
+        if s.valid && s.wi.z() > 0.0 {
+            let ring = (s.wi.sin2_theta() * RINGS as f64) as usize;
+            rings[ring.min(RINGS - 1)] += s.weight.average() / f64::from(samples);
+        }
+    }
+    let (least, most) = rings.iter().fold((f64::INFINITY, 0.0_f64), |(a, b), r| (a.min(*r), b.max(*r)));
+    [rings.iter().sum(), least / most]
 }
 
 /// Makes the figure.
-pub(super) fn make(_: &Studio<'_>) -> Result<Figure, LectureError> {
+pub(super) fn make(studio: &Studio<'_>) -> Result<Figure, LectureError> {
     let models: Vec<Surface<f64>> = SURFACES.iter().map(|s| surface(s.1)).collect::<Result<_, _>>()?;
     let x = steps(-85.0, 85.0, 170);
     let curves = SURFACES.iter().zip(&models).map(|(s, m)| Curve::of(s.0, &x, |t| PI * f_in_plane(m, PSI, t)));
@@ -42,12 +56,12 @@ pub(super) fn make(_: &Studio<'_>) -> Result<Figure, LectureError> {
         curves: curves.collect(),
         rules: Vec::new(),
     };
-    let view = LocalDir::from_angles(PSI.to_radians(), 0.0);
-    let shares: Vec<[f64; 2]> = models.iter().map(|m| [sampled(m, view), flatness(m)]).collect();
+    let samples = studio.pick(200_000, 2_000_000);
+    let shares: Vec<[f64; 2]> = models.iter().map(|m| spread(m, samples)).collect();
     let mut checks = Vec::new();
     for ((name, _, white), [share, _]) in SURFACES.iter().zip(&shares) {
         if *white {
-            // 20000 samples of weights near one; EON's reach some tens.
+            // Weights are near one; EON's reach some tens.
             checks.push(Check::near(format!("albedo: {name}"), *share, 1.0, 0.01));
         }
     }
@@ -63,7 +77,7 @@ pub(super) fn make(_: &Studio<'_>) -> Result<Figure, LectureError> {
     Ok(Figure {
         caption: format!(
             "Mirrors that are met once lose light and glare forward. A walk from facet to facet returns all of it, and more evenly; facets that are matt themselves, or a body \
-             under the surface, come near to Lambert's law. Albedo and flatness (least over greatest value up to 75°): {}.",
+             under the surface, come near to Lambert's law. Albedo and flatness (least over greatest share of the light in eight rings around the normal, which Lambert's law fills equally): {}.",
             told.join("; ")
         ),
         formulas: vec![
@@ -78,17 +92,4 @@ pub(super) fn make(_: &Studio<'_>) -> Result<Figure, LectureError> {
     }
     .with("light", format!("{PSI}°"))
     .with("α", 1))
-}
-
-/// Albedo by sampling: the value of a walk is random, its weights are not worth a cubature.
-fn sampled(model: &Surface<f64>, view: LocalDir<f64>) -> f64 {
-    use sparrow_models::Uniforms;
-    use sparrow_stats::{Random, albedo};
-    let mut random = Random::named(0, "albedo");
-    let mut weight = |_| {
-        let u = Uniforms { lobe: random.uniform(), dir: [random.uniform(), random.uniform()] };
-        let s = model.sample(view, u);
-        if s.valid { s.weight.average() } else { 0.0 }
-    };
-    albedo(20_000, &mut weight).value()
 }

@@ -1,11 +1,10 @@
 //! Slide 18: both terms over the viewer's angle, with the slide's sign and the other one.
 
-use sparrow_math::{LocalDir, Real, vec3};
 use sparrow_models::{Bcsdf, Fibre};
 use sparrow_plot::draw::axis::Axis;
 use sparrow_plot::draw::cartesian::Rule;
 
-use crate::ask::fibre;
+use crate::ask::{fibre, inclined};
 use crate::chart::{self, Chart, Curve, steps};
 use crate::{Check, Figure, Formula, LectureError, Picture, Studio};
 
@@ -33,11 +32,6 @@ fn terms() -> Result<[Fibre<f64>; 3], LectureError> {
         fibre(&words(0.0, 1.0, "literal"))?,
         fibre(&words(0.0, 1.0, "physical"))?,
     ])
-}
-
-fn inclined(theta: f64, phi: f64) -> LocalDir<f64> {
-    let ((s, c), (t, d)) = (Real::sin_cos(theta.to_radians()), Real::sin_cos(phi.to_radians()));
-    LocalDir::new(vec3(s, c * d, c * t))
 }
 
 /// Of angles from the tangent, as the slide has them.

@@ -1,11 +1,18 @@
-//! Multiple importance sampling.
+//! Multiple importance sampling: slides 27 to 29.
 
-use crate::entry::Topic;
+mod circular_light;
+mod matrix;
+mod weights;
+
+use crate::entry::{Entry, Topic};
 
 /// The page.
 pub(super) const TOPIC: Topic = Topic {
     id: "mis",
     title: "Multiple importance sampling",
     about: "Light sampling finds small lights over rough surfaces, sampling of the lobe finds large ones over smooth surfaces. Weights make one estimator of both.",
-    figures: &[],
+    figures: &[
+        Entry { id: "circular-light-errors", title: "A circular light over a rough surface: errors", rows: &[27], make: matrix::make },
+        Entry { id: "weights", title: "Two techniques and their weights", rows: &[28], make: weights::make },
+    ],
 };
