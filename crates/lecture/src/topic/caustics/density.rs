@@ -37,7 +37,10 @@ fn share(h: f64) -> f64 {
 
 /// The sum over the offsets that leave at `phi` degrees.
 fn by_roots(phi: f64) -> f64 {
-    of_trt(phi.to_radians(), ETA).iter().map(|r| if r.density > 0.0 { share(r.h) * r.density } else { 0.0 }).sum()
+    of_trt(phi.to_radians(), ETA)
+        .iter()
+        .map(|r| if r.density > 0.0 { share(r.h) * r.density } else { 0.0 })
+        .sum()
 }
 
 /// N of TRT with its caustics smoothed: the model's lobe over M, where light inside goes across the fibre.
@@ -72,7 +75,10 @@ pub(super) fn make(studio: &Studio<'_>) -> Result<Figure, LectureError> {
     let smooth = fibre("marschner sigma_a=0.2 glint=2 glint_width=15")?;
     let x = steps(-60.0, 60.0, 960);
     let edge = |k: usize| k as f64 - CELLS as f64;
-    let bars = cells.iter().enumerate().flat_map(|(k, a)| [[edge(k), a / PI * 180.0], [edge(k + 1), a / PI * 180.0]]);
+    let bars = cells
+        .iter()
+        .enumerate()
+        .flat_map(|(k, a)| [[edge(k), a / PI * 180.0], [edge(k + 1), a / PI * 180.0]]);
     let chart = Chart {
         title: "TRT around the light".to_owned(),
         subtitle: format!("light across the fibre, η = {ETA}, σa = {SIGMA_A}; {rays} traced rays"),
@@ -109,8 +115,18 @@ pub(super) fn make(studio: &Studio<'_>) -> Result<Figure, LectureError> {
 fn checks(cells: &[f64], sum: f64, smooth: &Fibre<f64>) -> Vec<Check> {
     let mut checks = Vec::new();
     for (phi, [raw, smoothed_there]) in KNOWN {
-        checks.push(Check::near(format!("N at {phi}°, sum over roots (marschner.NTRT.phi{phi}.thd0)"), by_roots(phi), raw, 1e-6));
-        checks.push(Check::near(format!("N at {phi}°, smoothed"), smoothed(smooth, phi), smoothed_there, 1e-6));
+        checks.push(Check::near(
+            format!("N at {phi}°, sum over roots (marschner.NTRT.phi{phi}.thd0)"),
+            by_roots(phi),
+            raw,
+            1e-6,
+        ));
+        checks.push(Check::near(
+            format!("N at {phi}°, smoothed"),
+            smoothed(smooth, phi),
+            smoothed_there,
+            1e-6,
+        ));
     }
     // Cells that end before the caustic at 18.6 degrees and the edge at 19.3.
     let mean = |k: usize| {
@@ -119,13 +135,23 @@ fn checks(cells: &[f64], sum: f64, smooth: &Fibre<f64>) -> Vec<Check> {
     };
     let within = (CELLS - 16)..(CELLS + 16);
     let off = within.map(|k| (cells[k] / mean(k) - 1.0).abs()).fold(0.0, f64::max);
-    checks.push(Check::at_most("largest relative difference of traced rays from the sum over roots, up to 16°", off, 0.01));
+    checks.push(Check::at_most(
+        "largest relative difference of traced rays from the sum over roots, up to 16°",
+        off,
+        0.01,
+    ));
     checks.push(Check::near("light of all traced rays, the mean of A (attenuation.mean.0)", sum, MEAN, 1e-5));
     let outside: f64 = cells.iter().take(CELLS - 20).chain(&cells[CELLS + 20..]).sum();
     checks.push(Check::at_most("light beyond 20°", outside, 0.0));
     let fine = steps(-20.0, 20.0, 200_000);
-    let integral: f64 = fine.windows(2).map(|e| by_roots(0.5 * (e[0] + e[1])) * (e[1] - e[0]).to_radians()).sum();
+    let integral: f64 =
+        fine.windows(2).map(|e| by_roots(0.5 * (e[0] + e[1])) * (e[1] - e[0]).to_radians()).sum();
     // The integrand has the root of the distance from the caustic below: one cell of 0.0002 degrees is worth 0.3 %.
-    checks.push(Check::near("integral of the sum over roots, over the mean of A", integral / MEAN, 1.0, 0.005));
+    checks.push(Check::near(
+        "integral of the sum over roots, over the mean of A",
+        integral / MEAN,
+        1.0,
+        0.005,
+    ));
     checks
 }

@@ -49,14 +49,32 @@ pub(super) fn make(_: &Studio<'_>) -> Result<Figure, LectureError> {
     let mut checks = Vec::new();
     for (eta, [want_h, want_phi, want_bend]) in KNOWN {
         let [phi, bend] = caustic_azimuth(eta);
-        checks.push(Check::near(format!("offset of the caustic, η' = {eta} (caustic.{eta})"), caustic(eta), want_h, 1e-5));
-        checks.push(Check::near(format!("its azimuth in degrees, η' = {eta}"), phi.abs().to_degrees(), want_phi, 1e-4));
+        checks.push(Check::near(
+            format!("offset of the caustic, η' = {eta} (caustic.{eta})"),
+            caustic(eta),
+            want_h,
+            1e-5,
+        ));
+        checks.push(Check::near(
+            format!("its azimuth in degrees, η' = {eta}"),
+            phi.abs().to_degrees(),
+            want_phi,
+            1e-4,
+        ));
         checks.push(Check::near(format!("curvature there, η' = {eta}"), bend, want_bend, 1e-4));
         // Found on the map itself.
-        let most = steps(0.0, 1.0, 200_000).iter().map(|h| wrapped(exit(*h, eta).to_radians()).to_degrees()).fold(0.0, f64::max);
+        let most = steps(0.0, 1.0, 200_000)
+            .iter()
+            .map(|h| wrapped(exit(*h, eta).to_radians()).to_degrees())
+            .fold(0.0, f64::max);
         checks.push(Check::near(format!("largest exit over h, η' = {eta}"), most, want_phi, 1e-4));
     }
-    checks.push(Check::near("azimuth of the caustic at η' = 2, in degrees", caustic_azimuth(2.0_f64)[0].to_degrees(), 0.0, 1e-9));
+    checks.push(Check::near(
+        "azimuth of the caustic at η' = 2, in degrees",
+        caustic_azimuth(2.0_f64)[0].to_degrees(),
+        0.0,
+        1e-9,
+    ));
     Ok(Figure {
         caption: "The exit of TRT moves out with the offset, turns back at the caustic and passes the light again. At the turning point the light of many offsets leaves in one \
             direction, which makes the glints of hair. They move inwards as the index grows or the light is slanted, and merge at η' = 2."
@@ -80,7 +98,14 @@ pub(super) fn make(_: &Studio<'_>) -> Result<Figure, LectureError> {
 /// Rays of TRT in a circle of glass, from the left.
 fn fan() -> String {
     let eta = 1.55;
-    let mut sketch = Sketch::new("The fan of TRT", "parallel light from the left, η' = 1.55; rays next to the caustic in colour", Vec::new(), [0.0, 0.0], 2.6);
+    let mut sketch = Sketch::new(
+        "The fan of TRT",
+        "parallel light from the left, η' = 1.55; rays next to the caustic in colour",
+        Vec::new(),
+        [0.0, 0.0],
+        1.6,
+    )
+    .moved(0.9);
     sketch.line(&turn(180, |c, s| vec3(0.0, c, s)), Pen::new(LIGHT.ink, 3.0));
     let across = |phi: f64| -> Vec3<f64> {
         let (s, c) = Real::sin_cos(phi);
@@ -94,8 +119,16 @@ fn fan() -> String {
         let near = (h.abs() - caustic(eta)).abs() < 0.14;
         let colour = if near { LIGHT.series(1).0 } else { LIGHT.series(0).0 };
         let width = if near { 1.8 } else { 0.9 };
-        sketch.line(&[vec3(0.0, -3.0, corner(0.0).z), corner(0.0), corner(1.0), corner(2.0)], Pen::new(LIGHT.grid, 1.0));
-        sketch.arrow(corner(2.0), corner(2.0) + across(light + exit(h, eta).to_radians()) * 1.7, colour, width);
+        sketch.line(
+            &[vec3(0.0, -2.6, corner(0.0).z), corner(0.0), corner(1.0), corner(2.0)],
+            Pen::new(LIGHT.grid, 1.0),
+        );
+        sketch.arrow(
+            corner(2.0),
+            corner(2.0) + across(light + exit(h, eta).to_radians()) * 1.6,
+            colour,
+            width,
+        );
     }
     sketch.finish()
 }

@@ -31,7 +31,14 @@ pub(super) fn make(_: &Studio<'_>) -> Result<Figure, LectureError> {
     let light = inclined(0.0, 180.0);
     let mut table = Table::new(["h", "normal_azimuth_deg", "exit_azimuth_deg"]);
     let title = "Rays across a mirror cylinder";
-    let mut sketch = Sketch::new(title, "seen along the axis; h is the offset from it in radii", Vec::new(), [0.0, 0.0], 2.6);
+    let mut sketch = Sketch::new(
+        title,
+        "seen along the axis; h is the offset from it in radii",
+        Vec::new(),
+        [0.0, 0.0],
+        2.2,
+    )
+    .moved(0.4);
     sketch.line(&turn(180, |c, s| vec3(0.0, c, s)), Pen::new(LIGHT.ink, 3.0));
     for k in -9..=9 {
         let h = f64::from(k) / 9.5;
@@ -53,7 +60,11 @@ pub(super) fn make(_: &Studio<'_>) -> Result<Figure, LectureError> {
     for (normal, want) in KNOWN {
         let h = Real::sin((20.0 - normal).to_radians());
         let off = (reflected(from, h)?.v() - vec3(want[0], want[1], want[2])).length();
-        checks.push(Check::at_most(format!("distance from the known reflection at the normal's azimuth {normal}° (cylinder.cone)"), off, 1e-12));
+        checks.push(Check::at_most(
+            format!("distance from the known reflection at the normal's azimuth {normal}° (cylinder.cone)"),
+            off,
+            1e-12,
+        ));
     }
     Ok(Figure {
         caption: "A ray at the offset h from the axis meets a normal whose azimuth is asin h away from the light's, and turns by twice that. \

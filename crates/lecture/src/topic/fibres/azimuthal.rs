@@ -50,21 +50,36 @@ pub(super) fn make(_: &Studio<'_>) -> Result<Figure, LectureError> {
             rules: Vec::new(),
         });
     }
-    let (all, command) = plotted("marschner sigma_a=0.2 wo=0", &Options { kind: Kind::Azimuthal, ..Options::default() })?;
+    let (all, command) =
+        plotted("marschner sigma_a=0.2 wo=0", &Options { kind: Kind::Azimuthal, ..Options::default() })?;
     let mut checks = Vec::new();
     for (phi, want) in KNOWN {
         let got = lobes(0.0, phi, SEGMENTS[1]);
         for (p, name) in LOBES.iter().enumerate() {
             // Beyond seven standard deviations ours is nothing.
-            checks.push(Check::near(format!("N of {name} at {phi}° (deon.N.{phi})"), got[p], want[p], 2e-4 * want[p] + 1e-8));
+            checks.push(Check::near(
+                format!("N of {name} at {phi}° (deon.N.{phi})"),
+                got[p],
+                want[p],
+                2e-4 * want[p] + 1e-8,
+            ));
         }
     }
     for theta in INCLINATIONS {
-        let total: f64 = steps(-179.5, 179.5, 359).iter().map(|phi| lobes(theta, *phi, SEGMENTS[0]).iter().sum::<f64>()).sum();
+        let total: f64 = steps(-179.5, 179.5, 359)
+            .iter()
+            .map(|phi| lobes(theta, *phi, SEGMENTS[0]).iter().sum::<f64>())
+            .sum();
         let (sin, cos) = Real::sin_cos(f64::to_radians(theta));
-        let shares = FarField { theta: [sin, cos], eta: 1.55, sigma_a: Spectrum::splat(0.2) }.shares(SEGMENTS[0]);
+        let shares =
+            FarField { theta: [sin, cos], eta: 1.55, sigma_a: Spectrum::splat(0.2) }.shares(SEGMENTS[0]);
         let mean: f64 = shares[..3].iter().map(|a| a.average()).sum();
-        checks.push(Check::near(format!("integral of N over the azimuth over the mean of A, θd = {theta}°"), total.to_radians() / mean, 1.0, 1e-4));
+        checks.push(Check::near(
+            format!("integral of N over the azimuth over the mean of A, θd = {theta}°"),
+            total.to_radians() / mean,
+            1.0,
+            1e-4,
+        ));
     }
     let mut pictures: Vec<Picture> = charts
         .iter()

@@ -35,25 +35,34 @@ pub(super) fn make(_: &Studio<'_>) -> Result<Figure, LectureError> {
     let x = steps(-90.0, 90.0, 360);
     let mut charts = Vec::new();
     for (p, name) in LOBES.iter().enumerate() {
-        let curve = |light: &f64| Curve::of(format!("θ_{{i}} = {light}°"), &x, |t| lobe(&model, p, *light, t));
+        let curve =
+            |light: &f64| Curve::of(format!("θ_{{i}} = {light}°"), &x, |t| lobe(&model, p, *light, t));
         let curves: Vec<Curve> = LIGHTS.iter().map(curve).collect();
         let top = curves.iter().flat_map(|c| &c.points).map(|p| p[1]).fold(0.0, f64::max);
         charts.push(Chart {
             title: format!("{name} along the fibre"),
-            subtitle: format!("S cos θi at the azimuth {}°; rules at −θi + 2α, α = {}°", AZIMUTH[p], ALPHA[p]),
+            subtitle: format!(
+                "S cos θi at the azimuth {}°; rules at −θi + 2α, α = {}°",
+                AZIMUTH[p], ALPHA[p]
+            ),
             x: Axis::degrees("θ_{o}  [deg]", -90.0, 90.0),
             y: Axis::linear("S cos θ_{i}  [1/sr]", 0.0, top, 5),
             curves,
             rules: LIGHTS.iter().map(|l| Rule { at: 2.0 * ALPHA[p] - l, label: String::new() }).collect(),
         });
     }
-    let (all, command) = plotted("marschner sigma_a=0.2 wo=20", &Options { kind: Kind::Longitudinal, ..Options::default() })?;
+    let (all, command) =
+        plotted("marschner sigma_a=0.2 wo=20", &Options { kind: Kind::Longitudinal, ..Options::default() })?;
     let mut pictures: Vec<Picture> = charts
         .iter()
         .zip(LOBES)
         .map(|(c, name)| Picture::svg(&name.to_lowercase(), format!("{name} over the viewer's inclination, for five inclinations of the light: peaks opposite to the light, shifted by the scales."), c.svg()))
         .collect();
-    pictures.push(Picture::svg("all", "All lobes over the inclination of the light for a viewer at 20 degrees.", all.svg));
+    pictures.push(Picture::svg(
+        "all",
+        "All lobes over the inclination of the light for a viewer at 20 degrees.",
+        all.svg,
+    ));
     Ok(Figure {
         caption: "A smooth fibre would send all light to θo = −θi. Its scales are tilted by some degrees, which shifts R towards the root by 2α, and TT and TRT the other way; roughness \
             makes peaks of them. As highlights of R and TRT lie side by side on a strand, hair has two: one of the colour of the light, and one of its own."
@@ -82,14 +91,24 @@ fn checks() -> Result<Vec<Check>, LectureError> {
         for light in [-30.0, 0.0, 30.0] {
             let value = |t: &f64| lobe(&narrow, p, light, *t);
             let at = fine.iter().copied().max_by(|a, b| value(a).total_cmp(&value(b))).unwrap_or(f64::NAN);
-            checks.push(Check::near(format!("centre of {name} for θi = {light}°, at −θi + 2α"), at, 2.0 * ALPHA[p] - light, 0.35));
+            checks.push(Check::near(
+                format!("centre of {name} for θi = {light}°, at −θi + 2α"),
+                at,
+                2.0 * ALPHA[p] - light,
+                0.35,
+            ));
         }
     }
     // The sheet has M as printed, twice ours, and neither caustics nor their Gaussians.
     let plain = fibre("marschner sigma_a=0.2 glint=0")?;
     for (n, ([ti, pi, to, po], want)) in KNOWN.iter().enumerate() {
         let got = 2.0 * plain.f(inclined(*to, *po), inclined(*ti, *pi)).average();
-        checks.push(Check::near(format!("2 S without caustics (marschner.F{})", n + 1), got, *want, 1e-6 * want.max(1.0)));
+        checks.push(Check::near(
+            format!("2 S without caustics (marschner.F{})", n + 1),
+            got,
+            *want,
+            1e-6 * want.max(1.0),
+        ));
     }
     Ok(checks)
 }

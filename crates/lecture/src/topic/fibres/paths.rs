@@ -68,7 +68,8 @@ impl Path {
 
 /// Makes the figure.
 pub(super) fn make(_: &Studio<'_>) -> Result<Figure, LectureError> {
-    let (checks, mut table) = (checks(), Table::new(["h", "gamma_t_deg", "chord", "phi_r_deg", "phi_tt_deg", "phi_trt_deg"]));
+    let (checks, mut table) =
+        (checks(), Table::new(["h", "gamma_t_deg", "chord", "phi_r_deg", "phi_tt_deg", "phi_trt_deg"]));
     for k in -9..=9 {
         let h = f64::from(k) / 10.0;
         let ray = inside(h);
@@ -80,7 +81,7 @@ pub(super) fn make(_: &Studio<'_>) -> Result<Figure, LectureError> {
         let path = Path::new(h);
         let legend = LOBES.iter().enumerate().map(|(series, l)| Entry { label: (*l).to_owned(), series });
         let subtitle = format!("seen along the axis; h = {h}, η = {ETA}");
-        let mut sketch = Sketch::new("Paths through a fibre", &subtitle, legend.collect(), [0.0, 0.0], 2.1);
+        let mut sketch = Sketch::new("Paths through a fibre", &subtitle, legend.collect(), [0.0, 0.0], 1.85);
         sketch.line(&turn(180, |c, s| vec3(0.0, c, s)), Pen::new(LIGHT.ink, 3.0));
         let first = path.corners[0];
         sketch.arrow(vec3(0.0, -2.5, first.z), first, LIGHT.ink, 2.4);
@@ -93,7 +94,9 @@ pub(super) fn make(_: &Studio<'_>) -> Result<Figure, LectureError> {
             sketch.arrow(*corner, *corner + exit * 1.2, colour, 3.0);
             sketch.label(*corner + exit * 1.28, LOBES[p]);
         }
-        let alt = format!("A ray enters a circle at the offset {h}; arrows show where it leaves after no, one and two passages.");
+        let alt = format!(
+            "A ray enters a circle at the offset {h}; arrows show where it leaves after no, one and two passages."
+        );
         pictures.push(Picture::svg(name, alt, sketch.finish()));
     }
     Ok(Figure {
@@ -119,7 +122,10 @@ fn checks() -> Vec<Check> {
         let got = roots(lobe, phi);
         let what = format!("offsets that leave by {} at {phi}°", LOBES[lobe]);
         checks.push(Check::near(format!("number of {what}"), got.len() as f64, want.len() as f64, 0.0));
-        let off = want.iter().map(|h| got.iter().map(|g| (g - h).abs()).fold(f64::INFINITY, f64::min)).fold(0.0, f64::max);
+        let off = want
+            .iter()
+            .map(|h| got.iter().map(|g| (g - h).abs()).fold(f64::INFINITY, f64::min))
+            .fold(0.0, f64::max);
         checks.push(Check::at_most(format!("largest difference of {what}"), off, 1e-7));
     }
     // The drawing is geometry of its own: its chords and exits have to be those of the model.

@@ -19,8 +19,12 @@ const HALF: [f64; 3] = [15.0, 25.0, 40.0];
 /// Fibres' names, and their turn from parallels.
 const TURNS: [(&str, f64); 3] = [("parallels", 0.0), ("helix, 45°", FRAC_PI_4), ("meridians", FRAC_PI_2)];
 /// Polar angle in degrees and cosine of the azimuth for a half vector at 25 degrees: `highlight.sphere_meridians` of the reference sheet.
-const KNOWN: [(f64, f64); 4] =
-    [(5.0, 0.187_620_044_397_476_2), (10.0, 0.378_134_430_401_858_5), (20.0, 0.780_536_686_243_356_1), (25.0, 1.0)];
+const KNOWN: [(f64, f64); 4] = [
+    (5.0, 0.187_620_044_397_476_2),
+    (10.0, 0.378_134_430_401_858_5),
+    (20.0, 0.780_536_686_243_356_1),
+    (25.0, 1.0),
+];
 
 fn half_vector(theta: f64, phi: f64) -> Vec3<f64> {
     LocalDir::from_angles(theta.to_radians(), phi.to_radians()).v()
@@ -44,32 +48,57 @@ fn circle(points: &[[f64; 2]]) -> ([f64; 2], f64) {
 pub(super) fn make(_: &Studio<'_>) -> Result<Figure, LectureError> {
     let projected = |theta: f64| -> Vec<[f64; 2]> {
         let upper = sphere(half_vector(theta, 0.0), FRAC_PI_2, 4000);
-        upper.iter().flatten().filter(|p| Real::acos(p.z) <= theta.to_radians()).filter_map(|p| gnomonic(*p)).collect()
+        upper
+            .iter()
+            .flatten()
+            .filter(|p| Real::acos(p.z) <= theta.to_radians())
+            .filter_map(|p| gnomonic(*p))
+            .collect()
     };
     let mut checks = checks();
-    let x_axis = |title: &str| Axis::fixed(title, -0.2, 1.0, 6);
+    let x_axis = |title: &str| Axis::fixed(title, -0.3, 1.1, 7);
     let mut curves = Vec::new();
     for theta in HALF {
         let mut points = projected(theta);
         let (centre, radius) = circle(&points);
         let want = 0.5 * Real::tan(theta.to_radians());
-        checks.push(Check::near(format!("radius of the circle for θh = {theta}°, tan θh / 2"), radius, want, 1e-9));
+        checks.push(Check::near(
+            format!("radius of the circle for θh = {theta}°, tan θh / 2"),
+            radius,
+            want,
+            1e-9,
+        ));
         let off = ((centre[0] - want) * (centre[0] - want) + centre[1] * centre[1]).sqrt();
-        checks.push(Check::at_most(format!("distance of its centre from tan θh / 2, θh = {theta}°"), off, 1e-9));
-        points.sort_by(|a, b| Real::atan2(a[1] - centre[1], a[0] - centre[0]).total_cmp(&Real::atan2(b[1] - centre[1], b[0] - centre[0])));
+        checks.push(Check::at_most(
+            format!("distance of its centre from tan θh / 2, θh = {theta}°"),
+            off,
+            1e-9,
+        ));
+        points.sort_by(|a, b| {
+            Real::atan2(a[1] - centre[1], a[0] - centre[0])
+                .total_cmp(&Real::atan2(b[1] - centre[1], b[0] - centre[0]))
+        });
         curves.push(Curve { label: format!("θ_{{h}} = {theta}°"), points });
     }
     let plane = Chart {
         title: "Meridians, projected from the centre".to_owned(),
         subtitle: "the pole is at the origin; pole and half vector are ends of a diameter".to_owned(),
         x: x_axis("x / z"),
-        y: Axis::fixed("y / z", -0.5, 0.5, 5),
+        y: Axis::fixed("y / z", -0.45, 0.45, 5),
         curves,
         rules: Vec::new(),
     };
     let pictures = vec![
-        Picture::svg("sphere", "A sphere with three curves: a meridian, a spiral and a loop through the pole.", on_sphere()),
-        Picture::svg("gnomonic", "Three circles through the origin, whose diameters end at the half vectors.", plane.svg()),
+        Picture::svg(
+            "sphere",
+            "A sphere with three curves: a meridian, a spiral and a loop through the pole.",
+            on_sphere(),
+        ),
+        Picture::svg(
+            "gnomonic",
+            "Three circles through the origin, whose diameters end at the half vectors.",
+            plane.svg(),
+        ),
     ];
     Ok(Figure {
         caption: "Fibres tangent to the plane across the half vector reflect. On a sphere with fibres along parallels that is the meridian through the half vector, on one with fibres along \
@@ -91,8 +120,15 @@ pub(super) fn make(_: &Studio<'_>) -> Result<Figure, LectureError> {
 
 fn on_sphere() -> String {
     let h = half_vector(40.0, 20.0);
-    let legend = TURNS.iter().enumerate().map(|(series, (name, _))| Entry { label: (*name).to_owned(), series });
-    let mut sketch = Sketch::new("Highlights on a sphere", "dots: half vector h and pole", legend.collect(), [20.0, 50.0], 1.1);
+    let legend =
+        TURNS.iter().enumerate().map(|(series, (name, _))| Entry { label: (*name).to_owned(), series });
+    let mut sketch = Sketch::new(
+        "Highlights on a sphere",
+        "dots: half vector h and pole",
+        legend.collect(),
+        [20.0, 50.0],
+        1.1,
+    );
     let rim = [vec3(-0.342_020, 0.939_693, 0.0), vec3(-0.719_846, -0.262_003, 0.642_788)];
     sketch.line(&turn(180, |c, s| rim[0] * c + rim[1] * s), Pen::new(LIGHT.ink, 2.5));
     for (series, (_, turn)) in TURNS.iter().enumerate() {
@@ -120,7 +156,12 @@ fn checks() -> Vec<Check> {
         let at = |p: &&Vec3<f64>| (Real::acos(p.z).to_degrees() - theta).abs();
         let nearest = runs.iter().flatten().filter(|p| p.z > 0.0).min_by(|a, b| at(a).total_cmp(&at(b)));
         let cos = nearest.map_or(f64::NAN, |p| p.x / (p.x * p.x + p.y * p.y).sqrt());
-        checks.push(Check::near(format!("cos φ of the loop at θ = {theta}°, θh = 25° (highlight.sphere_meridians)"), cos, want, 1e-6));
+        checks.push(Check::near(
+            format!("cos φ of the loop at θ = {theta}°, θh = 25° (highlight.sphere_meridians)"),
+            cos,
+            want,
+            1e-6,
+        ));
     }
     let mut random = Random::named(0, "highlights");
     let (mut on, mut n) = ([0.0_f64; 3], 0.0);
@@ -143,7 +184,11 @@ fn checks() -> Vec<Check> {
         }
     }
     for (body, off) in ["sphere", "cylinder", "disc"].iter().zip(on) {
-        checks.push(Check::at_most(format!("largest |t·h| on predicted curves, random half vectors and slants: {body}"), off, 1e-12));
+        checks.push(Check::at_most(
+            format!("largest |t·h| on predicted curves, random half vectors and slants: {body}"),
+            off,
+            1e-12,
+        ));
     }
     checks.push(Check::at_least("points of predicted curves on spheres that were asked", n, 1000.0));
     checks

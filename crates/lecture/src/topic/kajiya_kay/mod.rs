@@ -9,5 +9,10 @@ pub(super) const TOPIC: Topic = Topic {
     id: "kajiya-kay",
     title: "Kajiya-Kay",
     about: "The first model of hair: a diffuse term from the angle between light and tangent, and a specular one from the cone of reflection.",
-    figures: &[Entry { id: "kajiya-kay-terms", title: "The diffuse and the specular term", rows: &[18], make: curves::make }],
+    figures: &[Entry {
+        id: "kajiya-kay-terms",
+        title: "The diffuse and the specular term",
+        rows: &[18],
+        make: curves::make,
+    }],
 };

@@ -29,11 +29,16 @@ pub(super) fn make(studio: &Studio<'_>) -> Result<Figure, LectureError> {
                 worst = worst.max(departure(&problem, *h, whole, runs));
             }
         }
-        let what = format!("largest difference of the five variances from matrix.R{}.a{}", cell.radius, cell.alpha);
+        let what =
+            format!("largest difference of the five variances from matrix.R{}.a{}", cell.radius, cell.alpha);
         checks.push(Check::at_most(what, off, 2e-5));
     }
     // The largest of 48 normal numbers passes 4.5 once in 3000 times.
-    checks.push(Check::at_most(format!("largest departure of {runs} drawn estimates from the integral, in standard errors"), worst, 4.5));
+    checks.push(Check::at_most(
+        format!("largest departure of {runs} drawn estimates from the integral, in standard errors"),
+        worst,
+        4.5,
+    ));
     Ok(Figure {
         caption: "Each field is a light over a surface; dark is good. Drawing from the light fails for large lights over smooth surfaces, drawing from the lobe for small lights over \
             rough ones. Their weighted sum is nowhere bad. The power heuristic is better in the corners, where one technique is nearly perfect, and little worse between; maximum has no safe middle."
@@ -69,9 +74,15 @@ fn departure(problem: &Problem, h: sparrow_mis::Heuristic, whole: f64, runs: u32
 }
 
 fn heat(values: &[Vec<f64>]) -> String {
-    let names = |title: &str, of: &dyn Fn(&Cell) -> f64, step: usize| {
-        let tick = |k: usize| Tick { at: k as f64 + 0.5, label: of(&CELLS[k * step]).to_string() };
-        Axis { title: title.to_owned(), lo: 0.0, hi: 4.0, scale: Scale::Linear, ticks: (0..4).map(tick).collect() }
+    let names = |title: &str, of: &dyn Fn(&Cell) -> String, step: usize| {
+        let tick = |k: usize| Tick { at: k as f64 + 0.5, label: of(&CELLS[k * step]) };
+        Axis {
+            title: title.to_owned(),
+            lo: 0.0,
+            hi: 4.0,
+            scale: Scale::Linear,
+            ticks: (0..4).map(tick).collect(),
+        }
     };
     let panel = |((name, _), v): (&(&str, Option<sparrow_mis::Heuristic>), &Vec<f64>)| Panel {
         title: (*name).to_owned(),
@@ -81,8 +92,8 @@ fn heat(values: &[Vec<f64>]) -> String {
     page.size = [1050.0, 800.0];
     Heat {
         page,
-        x: names("roughness α", &|c| c.alpha, 1),
-        y: names("radius of the light", &|c| c.radius, 4),
+        x: names("roughness α", &|c| c.alpha.to_string(), 1),
+        y: names("radius of the light", &|c| format!("{:.2}", c.radius), 4),
         colour: Axis::log_fixed("relative variance", 1e-6, 1e3, 6),
         panels: STRATEGIES.iter().zip(values).map(panel).collect(),
     }

@@ -12,7 +12,12 @@ pub(super) const TOPIC: Topic = Topic {
     title: "Multiple importance sampling",
     about: "Light sampling finds small lights over rough surfaces, sampling of the lobe finds large ones over smooth surfaces. Weights make one estimator of both.",
     figures: &[
-        Entry { id: "circular-light-errors", title: "A circular light over a rough surface: errors", rows: &[27], make: matrix::make },
+        Entry {
+            id: "circular-light-errors",
+            title: "A circular light over a rough surface: errors",
+            rows: &[27],
+            make: matrix::make,
+        },
         Entry { id: "weights", title: "Two techniques and their weights", rows: &[28], make: weights::make },
     ],
 };

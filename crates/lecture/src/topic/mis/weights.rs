@@ -35,7 +35,8 @@ pub(super) fn make(_: &Studio<'_>) -> Result<Figure, LectureError> {
         let end = 2.0 * Real::asin((0.5 * problem.cap).sqrt()).to_degrees();
         let x = steps(-20.0, 20.0, 800);
         let rules = [-end, end].map(|at| Rule { at, label: "rim".to_owned() });
-        let about = format!("light of radius {} at the distance 4, surface of width {}", cell.radius, cell.alpha);
+        let about =
+            format!("light of radius {} at the distance 4, surface of width {}", cell.radius, cell.alpha);
         let axis = || Axis::fixed("angle from the mirror direction  [deg]", -20.0, 20.0, 8);
         let densities = Chart {
             title: format!("Densities, R = {}", cell.radius),
@@ -66,7 +67,14 @@ pub(super) fn make(_: &Studio<'_>) -> Result<Figure, LectureError> {
             ],
             rules: rules.to_vec(),
         };
-        pictures.push(Picture::svg(&format!("densities-{}", cell.radius), format!("Densities of both techniques across the highlight of a light of radius {}.", cell.radius), densities.svg()));
+        pictures.push(Picture::svg(
+            &format!("densities-{}", cell.radius),
+            format!(
+                "Densities of both techniques across the highlight of a light of radius {}.",
+                cell.radius
+            ),
+            densities.svg(),
+        ));
         pictures.push(Picture::svg(&format!("weights-{}", cell.radius), format!("Weights of both techniques across the highlight of a light of radius {}; they add up to one.", cell.radius), weights.svg()));
         charts.extend([densities, weights]);
     }
@@ -115,6 +123,11 @@ fn checks() -> Result<Vec<Check>, LectureError> {
         weight(Heuristic::Balance, pdf, 0) * pdf[0] + weight(Heuristic::Balance, pdf, 1) * pdf[1]
     };
     let integral: f64 = (0..n).map(|k| slide(place(k))).sum::<f64>() / f64::from(n);
-    checks.push(Check::near("∫ (w1 p1 + w2 p2) for p1 = 1, p2 = 2x: ln 3, not 1", integral, 1.098_612_288_668_11, 1e-6));
+    checks.push(Check::near(
+        "∫ (w1 p1 + w2 p2) for p1 = 1, p2 = 2x: ln 3, not 1",
+        integral,
+        1.098_612_288_668_11,
+        1e-6,
+    ));
     Ok(checks)
 }

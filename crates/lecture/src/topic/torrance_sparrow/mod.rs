@@ -13,7 +13,12 @@ pub(super) const TOPIC: Topic = Topic {
     about: "The paper's figures 6 and 7, and its comparison with aluminium and magnesium oxide, drawn by its model alone. No measured points are shown, as we have none; numbers that are our choice are said to be.",
     figures: &[
         Entry { id: "fresnel", title: "Fresnel reflectance", rows: &[3], make: fresnel::make },
-        Entry { id: "g-over-cos", title: "G/cos θ in the plane of incidence", rows: &[4], make: g_over_cos::make },
+        Entry {
+            id: "g-over-cos",
+            title: "G/cos θ in the plane of incidence",
+            rows: &[4],
+            make: g_over_cos::make,
+        },
         Entry {
             id: "off-specular-aluminium",
             title: "Off-specular peaks: aluminium",
