@@ -140,12 +140,8 @@ pub(crate) fn run(args: &LectureArgs) -> Result<u8, Failure> {
 fn list(args: &LectureArgs) -> Result<u8, Failure> {
     let chosen = sparrow_lecture::select(args.only.as_deref()).map_err(refuse)?;
     if args.json {
-        let figure = |(topic, e): &(&'static sparrow_lecture::Topic, &'static sparrow_lecture::Entry)| Figure {
-            id: e.id,
-            title: e.title,
-            topic: topic.id,
-            slides: e.rows,
-            passed: None,
+        let figure = |(topic, e): &(&'static sparrow_lecture::Topic, &'static sparrow_lecture::Entry)| {
+            Figure { id: e.id, title: e.title, topic: topic.id, slides: e.rows, passed: None }
         };
         print(&Outcome {
             status: "done",

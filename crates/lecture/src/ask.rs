@@ -1,6 +1,6 @@
 //! Models by the words of `sparrow plot`, and what figures ask of them.
 
-use sparrow_math::LocalDir;
+use sparrow_math::{LocalDir, Real, vec3};
 use sparrow_models::{Bsdf, Fibre, FibreKind, Surface, SurfaceKind};
 use sparrow_plot::figure::plane_direction;
 use sparrow_plot::{Options, Series, draw_fibres, draw_figure, parse_series};
@@ -39,6 +39,12 @@ pub(crate) fn f_in_plane(model: &Surface<f64>, psi: f64, theta: f64) -> f64 {
 pub(crate) fn pair([ti, pi, to, po]: [f64; 4]) -> [LocalDir<f64>; 2] {
     let of = |t: f64, p: f64| LocalDir::from_angles(t.to_radians(), p.to_radians());
     [of(ti, pi), of(to, po)]
+}
+
+/// The direction of inclination and azimuth in degrees, in a fibre's frame.
+pub(crate) fn inclined(theta: f64, phi: f64) -> LocalDir<f64> {
+    let ((s, c), (t, d)) = (Real::sin_cos(theta.to_radians()), Real::sin_cos(phi.to_radians()));
+    LocalDir::new(vec3(s, c * d, c * t))
 }
 
 /// A figure of `sparrow plot` in the size of the book, and the command for it.

@@ -11,9 +11,7 @@
 //!
 //! Blanks part names and are otherwise of no meaning.
 
-use core::fmt::Write;
-
-/// The `math` element of a formula, to stand on a line of its own.
+/// The `math` element of a formula, with full-sized fractions.
 pub(crate) fn mathml(text: &str) -> String {
     let chars: Vec<char> = text.chars().collect();
     let mut reader = Reader { chars: &chars, at: 0 };
@@ -23,7 +21,7 @@ pub(crate) fn mathml(text: &str) -> String {
         // A closing brace too many is left out.
         reader.at += 1;
     }
-    format!("<math display=\"block\"><mrow>{body}</mrow></math>")
+    format!("<math displaystyle=\"true\"><mrow>{body}</mrow></math>")
 }
 
 struct Reader<'a> {
@@ -42,14 +40,28 @@ impl Reader<'_> {
     }
     /// Items up to a closing brace or the end.
     fn row(&mut self) -> String {
+        const GAP: &str = "<mspace width=\"0.17em\"></mspace>";
         let mut out = String::new();
         loop {
             self.skip_blanks();
-            match self.peek() {
-                None | Some('}') => return out,
-                Some(_) => out.push_str(&self.item()),
+            if matches!(self.peek(), None | Some('}')) {
+                return out;
+            }
+            // The name of a function touches neither what stands before it nor its argument.
+            let function = self.starts_function();
+            if function && !out.is_empty() {
+                out.push_str(GAP);
+            }
+            out.push_str(&self.item());
+            if function && self.peek() == Some(' ') {
+                out.push_str(GAP);
             }
         }
+    }
+    /// A name of several letters that is no construct.
+    fn starts_function(&self) -> bool {
+        let name: String = self.chars[self.at..].iter().take_while(|c| c.is_alphabetic()).collect();
+        name.chars().count() > 1 && !matches!(name.as_str(), "frac" | "sqrt" | "text")
     }
     /// An atom with what stands below and above it.
     fn item(&mut self) -> String {
@@ -123,14 +135,7 @@ impl Reader<'_> {
                 self.at += usize::from(self.peek() == Some('}'));
                 format!("<mtext>{}</mtext>", words.replace('&', "&amp;").replace('<', "&lt;"))
             }
-            _ => {
-                let mut out = format!("<mi>{name}</mi>");
-                // A function and its argument do not touch.
-                if name.chars().count() > 1 && self.peek() == Some(' ') {
-                    let _ = write!(out, "<mspace width=\"0.2em\"></mspace>");
-                }
-                out
-            }
+            _ => format!("<mi>{name}</mi>"),
         }
     }
 }
@@ -141,7 +146,7 @@ mod tests {
 
     fn inner(text: &str) -> String {
         let all = mathml(text);
-        all["<math display=\"block\"><mrow>".len()..all.len() - "</mrow></math>".len()].to_owned()
+        all["<math displaystyle=\"true\"><mrow>".len()..all.len() - "</mrow></math>".len()].to_owned()
     }
 
     #[test]

@@ -20,12 +20,23 @@ pub(crate) struct Sketch {
 
 impl Sketch {
     /// Seen from the azimuth and elevation in degrees, z up; `reach` is what fits between centre and border.
-    pub(crate) fn new(title: &str, subtitle: &str, legend: Vec<Entry>, [azimuth, elevation]: [f64; 2], reach: f64) -> Sketch {
+    pub(crate) fn new(
+        title: &str,
+        subtitle: &str,
+        legend: Vec<Entry>,
+        [azimuth, elevation]: [f64; 2],
+        reach: f64,
+    ) -> Sketch {
         let (svg, area) = page(title, subtitle, legend).begin();
-        let ((sa, ca), (se, ce)) = (Real::sin_cos(azimuth.to_radians()), Real::sin_cos(elevation.to_radians()));
+        let ((sa, ca), (se, ce)) =
+            (Real::sin_cos(azimuth.to_radians()), Real::sin_cos(elevation.to_radians()));
         let axes = [vec3(-sa, ca, 0.0), vec3(-se * ca, -se * sa, ce), vec3(ce * ca, ce * sa, se)];
         let scale = 0.5 * (area.w.min(area.h) - 20.0) / reach;
         Sketch { svg, title: title.to_owned(), centre: area.centre(), scale, axes }
+    }
+    /// The same, moved to the right by `units`.
+    pub(crate) fn moved(self, units: f64) -> Sketch {
+        Sketch { centre: [self.centre[0] + units * self.scale, self.centre[1]], ..self }
     }
     /// Place on the page.
     pub(crate) fn at(&self, p: Vec3<f64>) -> Point {

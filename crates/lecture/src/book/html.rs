@@ -7,11 +7,26 @@ pub(super) fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
+/// Text as HTML wants it; Latin letters right after a Greek one are its index: `θi`.
+pub(super) fn rich(text: &str) -> String {
+    let greek = |c: char| ('α'..='ω').contains(&c) || ('Α'..='Ω').contains(&c);
+    let (mut out, mut after_greek, mut below) = (String::new(), false, false);
+    for c in escaped(text).chars() {
+        let index = c.is_ascii_alphabetic() && (after_greek || below);
+        if index != below {
+            out.push_str(if index { "<sub>" } else { "</sub>" });
+        }
+        out.push(c);
+        (below, after_greek) = (index, greek(c));
+    }
+    if below { out + "</sub>" } else { out }
+}
+
 /// Paragraphs of a plain text.
 pub(super) fn paragraphs(text: &str) -> String {
     text.lines().filter(|l| !l.trim().is_empty()).fold(String::new(), |mut out, line| {
         // Writing to a string cannot fail.
-        let _ = writeln!(out, "<p>{}</p>", escaped(line));
+        let _ = writeln!(out, "<p>{}</p>", rich(line));
         out
     })
 }
@@ -54,6 +69,12 @@ pub(super) fn number(v: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn letters_after_greek_ones_are_indices() {
+        assert_eq!(rich("θi = −θo & αTT, π f"), "θ<sub>i</sub> = −θ<sub>o</sub> &amp; α<sub>TT</sub>, π f");
+        assert_eq!(rich("2θh"), "2θ<sub>h</sub>");
+    }
 
     #[test]
     fn numbers_are_short() {

@@ -2,7 +2,7 @@
 
 use core::fmt::Write;
 
-use super::html::{document, escaped, number, paragraphs};
+use super::html::{document, escaped, number, paragraphs, rich};
 use super::{Book, Made};
 use crate::check::{Bound, Check};
 use crate::entry::Topic;
@@ -68,7 +68,12 @@ fn slides(rows: &[u8]) -> String {
 
 fn pictures(made: &Made) -> String {
     let n = made.figure.pictures.len();
-    let mut out = format!("<div class=\"pictures{}\">\n", if n == 1 { " one" } else { "" });
+    let class = match n {
+        1 => " one",
+        _ if n.is_multiple_of(3) => " three",
+        _ => "",
+    };
+    let mut out = format!("<div class=\"pictures{class}\">\n");
     for (i, picture) in made.figure.pictures.iter().enumerate() {
         let file = made.picture_file(i);
         let class = match picture.content {
@@ -106,8 +111,8 @@ fn verdict(figure: &Figure) -> String {
         return "<p class=\"verdict failed\"><b>Not checked.</b></p>\n".to_owned();
     }
     let first = figure.checks.iter().find(|c| !c.holds()).or(figure.checks.first());
-    let said = first
-        .map_or(String::new(), |c| format!("{}: {}, {}.", escaped(&c.what), number(c.measured), bound(c)));
+    let said =
+        first.map_or(String::new(), |c| format!("{}: {}, {}.", rich(&c.what), number(c.measured), bound(c)));
     let mut out = format!("<p class=\"verdict {class}\"><b>{word}</b>, {held} of {n} checks. {said}</p>\n");
     if n == 1 {
         return out;
@@ -123,7 +128,7 @@ fn verdict(figure: &Figure) -> String {
         let _ = writeln!(
             out,
             "<tr><td>{}</td><td>{}</td><td>{}</td><td class=\"{class}\">{word}</td></tr>",
-            escaped(&c.what),
+            rich(&c.what),
             number(c.measured),
             bound(c)
         );
@@ -153,7 +158,7 @@ fn origin(made: &Made) -> String {
             .figure
             .parameters
             .iter()
-            .map(|(name, value)| format!("{} = {}", escaped(name), escaped(value)))
+            .map(|(name, value)| format!("{} = {}", rich(name), rich(value)))
             .collect();
         let _ = writeln!(out, "<dt>Parameters</dt><dd>{}</dd>", all.join("; "));
     }

@@ -9,8 +9,7 @@ use sparrow_models::{Bcsdf, Uniforms};
 use sparrow_plot::draw::axis::Axis;
 use sparrow_stats::{Cell, Random, chi_square};
 
-use super::bundle::inclined;
-use crate::ask::fibre;
+use crate::ask::{fibre, inclined};
 use crate::chart::{self, Chart, Curve, steps};
 use crate::{Check, Figure, Formula, LectureError, Picture, Studio};
 
@@ -42,11 +41,13 @@ pub(super) fn make(studio: &Studio<'_>) -> Result<Figure, LectureError> {
     let width = 360.0 / CELLS as f64;
     let edge = |k: usize| k as f64 * width - 180.0;
     let expected = |k: usize| f64::from(rays) * share(edge(k), edge(k + 1));
-    let cells: Vec<Cell> = (0..CELLS).map(|k| Cell { observed: counts[k], expected: expected(k), slack: 0.0 }).collect();
+    let cells: Vec<Cell> =
+        (0..CELLS).map(|k| Cell { observed: counts[k], expected: expected(k), slack: 0.0 }).collect();
     let test = chi_square(&cells);
     let per_radian = |n: f64| n / (f64::from(rays) * width.to_radians());
     let x = steps(-180.0, 180.0, 360);
-    let bars = (0..CELLS).flat_map(|k| [[edge(k), per_radian(counts[k])], [edge(k + 1), per_radian(counts[k])]]);
+    let bars =
+        (0..CELLS).flat_map(|k| [[edge(k), per_radian(counts[k])], [edge(k + 1), per_radian(counts[k])]]);
     let chart = Chart {
         title: "Light around the cone".to_owned(),
         subtitle: format!("{rays} traced rays in cells of {width}°, and the density"),
@@ -58,9 +59,15 @@ pub(super) fn make(studio: &Studio<'_>) -> Result<Figure, LectureError> {
         ],
         rules: Vec::new(),
     };
-    let mut checks = vec![Check::at_least(format!("chi-square over {CELLS} cells: probability p"), test.p, 1e-3)];
+    let mut checks =
+        vec![Check::at_least(format!("chi-square over {CELLS} cells: probability p"), test.p, 1e-3)];
     for (phi, want) in KNOWN {
-        checks.push(Check::near(format!("density at {phi}° (cylinder.NR)"), of_r(phi.to_radians()).density, want, 1e-12));
+        checks.push(Check::near(
+            format!("density at {phi}° (cylinder.NR)"),
+            of_r(phi.to_radians()).density,
+            want,
+            1e-12,
+        ));
     }
     let whole: f64 = steps(-179.5, 179.5, 359).iter().map(|p| of_r(p.to_radians()).density.to_owned()).sum();
     checks.push(Check::near("integral over all azimuths", whole.to_radians(), 1.0, 1e-4));

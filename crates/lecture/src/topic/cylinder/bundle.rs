@@ -6,7 +6,7 @@ use sparrow_plot::draw::svg::Pen;
 use sparrow_plot::draw::table::Table;
 use sparrow_plot::draw::theme::LIGHT;
 
-use crate::ask::fibre;
+use crate::ask::{fibre, inclined};
 use crate::sketch::{Sketch, turn};
 use crate::{Check, Figure, Formula, LectureError, Picture, Studio};
 
@@ -18,12 +18,6 @@ const KNOWN: [(f64, [f64; 3]); 4] = [
     (20.0, [-0.573_576_436_351_046, 0.769_751_131_320_057_5, 0.280_166_499_593_235_6]),
     (60.0, [-0.573_576_436_351_046, -0.142_244_259_722_923_87, 0.806_707_284_111_598_8]),
 ];
-
-/// The direction of inclination and azimuth in degrees.
-pub(super) fn inclined(theta: f64, phi: f64) -> LocalDir<f64> {
-    let ((s, c), (t, d)) = (Real::sin_cos(theta.to_radians()), Real::sin_cos(phi.to_radians()));
-    LocalDir::new(vec3(s, c * d, c * t))
-}
 
 /// Where a mirror cylinder sends light from `from` that meets it at the offset `h`.
 pub(super) fn reflected(from: LocalDir<f64>, h: f64) -> Result<LocalDir<f64>, LectureError> {
@@ -37,7 +31,14 @@ pub(super) fn make(_: &Studio<'_>) -> Result<Figure, LectureError> {
     let light = inclined(0.0, 180.0);
     let mut table = Table::new(["h", "normal_azimuth_deg", "exit_azimuth_deg"]);
     let title = "Rays across a mirror cylinder";
-    let mut sketch = Sketch::new(title, "seen along the axis; h is the offset from it in radii", Vec::new(), [0.0, 0.0], 2.6);
+    let mut sketch = Sketch::new(
+        title,
+        "seen along the axis; h is the offset from it in radii",
+        Vec::new(),
+        [0.0, 0.0],
+        2.2,
+    )
+    .moved(0.4);
     sketch.line(&turn(180, |c, s| vec3(0.0, c, s)), Pen::new(LIGHT.ink, 3.0));
     for k in -9..=9 {
         let h = f64::from(k) / 9.5;
@@ -59,7 +60,11 @@ pub(super) fn make(_: &Studio<'_>) -> Result<Figure, LectureError> {
     for (normal, want) in KNOWN {
         let h = Real::sin((20.0 - normal).to_radians());
         let off = (reflected(from, h)?.v() - vec3(want[0], want[1], want[2])).length();
-        checks.push(Check::at_most(format!("distance from the known reflection at the normal's azimuth {normal}° (cylinder.cone)"), off, 1e-12));
+        checks.push(Check::at_most(
+            format!("distance from the known reflection at the normal's azimuth {normal}° (cylinder.cone)"),
+            off,
+            1e-12,
+        ));
     }
     Ok(Figure {
         caption: "A ray at the offset h from the axis meets a normal whose azimuth is asin h away from the light's, and turns by twice that. \

@@ -8,8 +8,8 @@ use sparrow_plot::draw::table::Table;
 use sparrow_plot::draw::theme::LIGHT;
 use sparrow_stats::Random;
 
-use super::bundle::{inclined, reflected};
-use crate::ask::fibre;
+use super::bundle::reflected;
+use crate::ask::{fibre, inclined};
 use crate::sketch::{Sketch, turn};
 use crate::{Check, Figure, Formula, LectureError, Picture, Studio};
 
@@ -25,7 +25,13 @@ fn up(w: LocalDir<f64>) -> Vec3<f64> {
 /// Slide 11.
 pub(super) fn rays(_: &Studio<'_>) -> Result<Figure, LectureError> {
     let light = inclined(35.0, 0.0);
-    let mut sketch = Sketch::new("The cone of reflected rays", "light at 35° above the plane across the fibre", Vec::new(), VIEW, 1.35);
+    let mut sketch = Sketch::new(
+        "The cone of reflected rays",
+        "light at 35° above the plane across the fibre",
+        Vec::new(),
+        VIEW,
+        1.35,
+    );
     let (r, colours) = (0.16, LIGHT.palette);
     for z in [-1.25, 1.25] {
         sketch.line(&turn(90, |c, s| vec3(r * c, r * s, z)), Pen::new(LIGHT.soft, 1.5));
@@ -76,9 +82,23 @@ const INCLINATIONS: [f64; 3] = [10.0, 35.0, 60.0];
 
 /// Slide 12.
 pub(super) fn sphere(studio: &Studio<'_>) -> Result<Figure, LectureError> {
-    let legend = INCLINATIONS.iter().enumerate().map(|(series, t)| Entry { label: format!("θ_{{i}} = {t}°"), series });
-    let mut sketch = Sketch::new("The cone on the sphere of directions", "the tangent points up; dots are the lights", legend.collect(), VIEW, 1.12);
-    sketch.line(&turn(180, |c, s| vec3(-0.422_618 * c, 0.906_308 * c, 0.0) + vec3(-0.188_43, -0.087_87, 0.978_15) * s), Pen::new(LIGHT.soft, 1.5));
+    let legend = INCLINATIONS
+        .iter()
+        .enumerate()
+        .map(|(series, t)| Entry { label: format!("θ_{{i}} = {t}°"), series });
+    let mut sketch = Sketch::new(
+        "The cone on the sphere of directions",
+        "the tangent points up; dots are the lights",
+        legend.collect(),
+        VIEW,
+        1.12,
+    );
+    sketch.line(
+        &turn(180, |c, s| {
+            vec3(-0.422_618 * c, 0.906_308 * c, 0.0) + vec3(-0.188_43, -0.087_87, 0.978_15) * s
+        }),
+        Pen::new(LIGHT.soft, 1.5),
+    );
     sketch.round(&turn(90, |c, s| vec3(c, s, 0.0)), LIGHT.soft, 1.0);
     let far = fibre("mirror_cylinder field=far")?;
     let mut random = Random::named(0, "sphere");
@@ -100,7 +120,11 @@ pub(super) fn sphere(studio: &Studio<'_>) -> Result<Figure, LectureError> {
         let (z, r) = (-light.x(), (1.0 - light.x() * light.x()).sqrt());
         sketch.round(&turn(120, |c, s| vec3(r * c, r * s, z)), colour, 3.0);
         sketch.dot(up(light), colour);
-        checks.push(Check::at_most(format!("largest distance of reflections from the circle for θi = {theta}°, along the tangent"), off, 1e-14));
+        checks.push(Check::at_most(
+            format!("largest distance of reflections from the circle for θi = {theta}°, along the tangent"),
+            off,
+            1e-14,
+        ));
     }
     sketch.arrow(vec3(0.0, 0.0, 0.0), AXIS, LIGHT.ink, 2.0);
     sketch.label(AXIS, "t");

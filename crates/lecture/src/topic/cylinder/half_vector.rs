@@ -38,10 +38,16 @@ pub(super) fn make(_: &Studio<'_>) -> Result<Figure, LectureError> {
     for width in WIDTHS {
         let model = fibre(&format!("deon alpha=0 width_m={width} sigma_a=1"))?;
         let raw = Curve::of("", &x, |a| seen(&model, a, 60.0));
-        let highest = raw.points.iter().copied().max_by(|a, b| a[1].total_cmp(&b[1])).unwrap_or([f64::NAN; 2]);
+        let highest =
+            raw.points.iter().copied().max_by(|a, b| a[1].total_cmp(&b[1])).unwrap_or([f64::NAN; 2]);
         // One step of the grid; Fresnel's term and the cosines tilt wide lobes.
         let tolerance = 0.25 + 0.02 * width * width / 3.0;
-        checks.push(Check::near(format!("tangent's angle at the brightest, width {width}°"), highest[0], 0.0, tolerance));
+        checks.push(Check::near(
+            format!("tangent's angle at the brightest, width {width}°"),
+            highest[0],
+            0.0,
+            tolerance,
+        ));
         let points = raw.points.iter().map(|p| [p[0], p[1] / highest[1]]).collect();
         curves.push(Curve { label: format!("width {width}°"), points });
     }
@@ -61,7 +67,11 @@ pub(super) fn make(_: &Studio<'_>) -> Result<Figure, LectureError> {
         gap = gap.max((half.dot(i.v()) - cos).abs());
     }
     checks.push(Check::at_most("largest |t·h| of 10000 mirror reflections", off, 1e-12));
-    checks.push(Check::at_most("largest difference of i·h from i·n, with n the normal that was met", gap, 1e-7));
+    checks.push(Check::at_most(
+        "largest difference of i·h from i·n, with n the normal that was met",
+        gap,
+        1e-7,
+    ));
     let chart = Chart {
         title: "Fibres across the half vector reflect".to_owned(),
         subtitle: "R lobe over its greatest value, light and viewer 70° apart, fixed".to_owned(),

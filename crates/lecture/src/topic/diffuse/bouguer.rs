@@ -31,7 +31,10 @@ pub(super) fn make(_: &Studio<'_>) -> Result<Figure, LectureError> {
         subtitle: "D = (4/π) cos 2α up to 45°, F = S = 1".to_owned(),
         x: Axis::degrees("θ_{o}  [deg]", -90.0, 90.0),
         y: Axis::fixed("π f", 0.0, 5.0, 5),
-        curves: PSI.iter().map(|psi| Curve::of(format!("light at {psi}°"), &x, |t| PI * f_in_plane(&model, *psi, t))).collect(),
+        curves: PSI
+            .iter()
+            .map(|psi| Curve::of(format!("light at {psi}°"), &x, |t| PI * f_in_plane(&model, *psi, t)))
+            .collect(),
         rules: Vec::new(),
     };
     let check = |([psi, theta], want): &([f64; 2], f64)| {

@@ -72,7 +72,7 @@ pub(super) fn make(studio: &Studio<'_>) -> Result<Figure, LectureError> {
         title: "The least bad distribution".to_owned(),
         subtitle: "fitted to a constant value, in bins of one degree".to_owned(),
         x: Axis::fixed("α  [deg]", 0.0, 90.0, 6),
-        y: Axis::linear("π D / 4", 0.0, 0.6, 6),
+        y: Axis::linear("π D / 4", 0.0, 0.25 * PI * smith.iter().fold(0.0, |a: f64, d| a.max(*d)), 6),
         curves: vec![curve("S = 1", &open), curve("S of Smith", &smith)],
         rules: Vec::new(),
     };

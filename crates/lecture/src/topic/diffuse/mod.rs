@@ -15,7 +15,12 @@ pub(super) const TOPIC: Topic = Topic {
     figures: &[
         Entry { id: "powder", title: "A powder at high incidence", rows: &[7], make: powder::make },
         Entry { id: "bouguer", title: "Bouguer's mirrors", rows: &[7], make: bouguer::make },
-        Entry { id: "no-diffuse-mirrors", title: "No distribution of mirrors is diffuse", rows: &[7], make: fit::make },
+        Entry {
+            id: "no-diffuse-mirrors",
+            title: "No distribution of mirrors is diffuse",
+            rows: &[7],
+            make: fit::make,
+        },
         Entry { id: "many-reflections", title: "Many reflections are", rows: &[7], make: walk::make },
     ],
 };

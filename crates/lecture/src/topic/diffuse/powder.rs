@@ -23,7 +23,11 @@ pub(super) fn make(studio: &Studio<'_>) -> Result<Figure, LectureError> {
         let energy = |t: f64| albedo(&model, LocalDir::from_angles(t.to_radians(), 0.0));
         let curve = Curve::of(format!("α = {alpha}"), &x, energy);
         let [low, high] = [energy(0.0), energy(85.0)];
-        checks.push(Check::at_least(format!("reflectance at 85° over that at 0°, α = {alpha}"), high / low, 1.005));
+        checks.push(Check::at_least(
+            format!("reflectance at 85° over that at 0°, α = {alpha}"),
+            high / low,
+            1.005,
+        ));
         let most = curve.points.iter().map(|p| p[1]).fold(0.0, f64::max);
         // The cubature is good to 1e-4.
         checks.push(Check::at_most(format!("largest reflectance, α = {alpha}"), most, 1.0 + 5e-4));

@@ -1,13 +1,12 @@
 //! Slide 7: reflections that follow each other make a surface white and even.
 
-use core::f64::consts::PI;
-
-use sparrow_math::LocalDir;
-use sparrow_models::{Bsdf, Surface};
+use sparrow_math::{LocalDir, Real};
+use sparrow_models::{Bsdf, Surface, Uniforms};
 use sparrow_plot::draw::axis::Axis;
+use sparrow_stats::Random;
 
-use crate::ask::{f_in_plane, surface};
-use crate::chart::{self, Chart, Curve, steps};
+use crate::ask::surface;
+use crate::chart::{self, Chart, Curve};
 use crate::{Check, Figure, Formula, LectureError, Picture, Studio};
 
 /// Names, models and what of the light leaves, where it is known to be all.
@@ -22,32 +21,60 @@ const SURFACES: [(&str, &str, bool); 6] = [
 /// The light's angle in degrees.
 const PSI: f64 = 45.0;
 
-/// `min / max` of the value over viewers up to 75 degrees in the plane of incidence.
-fn flatness(model: &Surface<f64>) -> f64 {
-    let values = steps(-75.0, 75.0, 150).into_iter().map(|t| f_in_plane(model, PSI, t));
-    let (least, most) = values.fold((f64::INFINITY, 0.0_f64), |(a, b), f| (a.min(f), b.max(f)));
-    least / most
+/// Rings around the normal, of equal projected solid angle.
+const RINGS: usize = 12;
+
+/// `pi f`, averaged over each ring around the normal. A Lambertian surface that is white has 1 everywhere.
+fn rings(model: &Surface<f64>, samples: u32) -> [f64; RINGS] {
+    let view = LocalDir::from_angles(PSI.to_radians(), 0.0);
+    let mut random = Random::named(0, "rings");
+    let mut rings = [0.0_f64; RINGS];
+    for _ in 0..samples {
+        let u = Uniforms { lobe: random.uniform(), dir: [random.uniform(), random.uniform()] };
+        let s = model.sample(view, u);
+        if s.valid && s.wi.z() > 0.0 {
+            let ring = (s.wi.sin2_theta() * RINGS as f64) as usize;
+            rings[ring.min(RINGS - 1)] += s.weight.average() * RINGS as f64 / f64::from(samples);
+        }
+    }
+    rings
+}
+
+/// Albedo, and flatness: least over greatest of the rings.
+fn albedo_and_flatness(rings: &[f64; RINGS]) -> [f64; 2] {
+    let (least, most) = rings.iter().fold((f64::INFINITY, 0.0_f64), |(a, b), r| (a.min(*r), b.max(*r)));
+    [rings.iter().sum::<f64>() / RINGS as f64, least / most]
+}
+
+/// Angle from the normal in degrees at the place `k` among the rings' borders.
+fn angle(k: usize) -> f64 {
+    Real::asin((k as f64 / RINGS as f64).sqrt()).to_degrees()
 }
 
 /// Makes the figure.
-pub(super) fn make(_: &Studio<'_>) -> Result<Figure, LectureError> {
+pub(super) fn make(studio: &Studio<'_>) -> Result<Figure, LectureError> {
     let models: Vec<Surface<f64>> = SURFACES.iter().map(|s| surface(s.1)).collect::<Result<_, _>>()?;
-    let x = steps(-85.0, 85.0, 170);
-    let curves = SURFACES.iter().zip(&models).map(|(s, m)| Curve::of(s.0, &x, |t| PI * f_in_plane(m, PSI, t)));
+    let samples = studio.pick(200_000, 2_000_000);
+    let rings: Vec<[f64; RINGS]> = models.iter().map(|m| rings(m, samples)).collect();
+    let curve = |(s, rings): (&(&str, &str, bool), &[f64; RINGS])| Curve {
+        label: s.0.to_owned(),
+        points: (0..RINGS).flat_map(|k| [[angle(k), rings[k]], [angle(k + 1), rings[k]]]).collect(),
+    };
     let chart = Chart {
         title: "One reflection and many".to_owned(),
-        subtitle: format!("π f for light at {PSI}°; a white Lambertian surface has 1"),
-        x: Axis::degrees("θ_{o}  [deg]", -90.0, 90.0),
-        y: Axis::fixed("π f", 0.0, 2.5, 5),
-        curves: curves.collect(),
+        subtitle: format!(
+            "π f, averaged around the normal, for light at {PSI}°; a white Lambertian surface has 1"
+        ),
+        x: Axis::fixed("θ_{o}  [deg]", 0.0, 90.0, 6),
+        y: Axis::fixed("π f", 0.0, 2.0, 5),
+        curves: SURFACES.iter().zip(&rings).map(curve).collect(),
         rules: Vec::new(),
     };
-    let view = LocalDir::from_angles(PSI.to_radians(), 0.0);
-    let shares: Vec<[f64; 2]> = models.iter().map(|m| [sampled(m, view), flatness(m)]).collect();
+    let shares: Vec<[f64; 2]> = rings.iter().map(albedo_and_flatness).collect();
     let mut checks = Vec::new();
     for ((name, _, white), [share, _]) in SURFACES.iter().zip(&shares) {
         if *white {
-            // 20000 samples of weights near one; EON's reach some tens.
+            // Weights are near one; EON's reach some tens.
             checks.push(Check::near(format!("albedo: {name}"), *share, 1.0, 0.01));
         }
     }
@@ -57,13 +84,18 @@ pub(super) fn make(_: &Studio<'_>) -> Result<Figure, LectureError> {
     }
     checks.push(Check::at_least("flatness gained by a walk", shares[1][1] - shares[0][1], 0.01));
     for k in [4, 5] {
-        checks.push(Check::at_least(format!("flatness over that of mirrors, once: {}", SURFACES[k].0), shares[k][1] / shares[0][1], 1.5));
+        checks.push(Check::at_least(
+            format!("flatness over that of mirrors, once: {}", SURFACES[k].0),
+            shares[k][1] / shares[0][1],
+            1.5,
+        ));
     }
-    let told: Vec<String> = SURFACES.iter().zip(&shares).map(|(s, [a, f])| format!("{} {a:.3} and {f:.2}", s.0)).collect();
+    let told: Vec<String> =
+        SURFACES.iter().zip(&shares).map(|(s, [a, f])| format!("{} {a:.3} and {f:.2}", s.0)).collect();
     Ok(Figure {
         caption: format!(
             "Mirrors that are met once lose light and glare forward. A walk from facet to facet returns all of it, and more evenly; facets that are matt themselves, or a body \
-             under the surface, come near to Lambert's law. Albedo and flatness (least over greatest value up to 75°): {}.",
+             under the surface, come near to Lambert's law. Albedo and flatness (least over greatest share of the light in twelve rings around the normal, which Lambert's law fills equally): {}.",
             told.join("; ")
         ),
         formulas: vec![
@@ -71,24 +103,12 @@ pub(super) fn make(_: &Studio<'_>) -> Result<Figure, LectureError> {
             Formula::new("f = frac{ρ}{π} A (1 + r frac{s}{t}) + f_{text{ms}}", "[Portsmouth2024]", "models/src/surface/eon.rs: eval"),
         ],
         commands: vec!["sparrow plot microfacet_reflection energy=single,walk fresnel=constant f0=1 alpha=1 wo=45 --kind cartesian".to_owned()],
-        pictures: vec![Picture::svg("", "π f over the viewer's angle for six surfaces; those with many reflections lie nearer to 1.", chart.svg())],
+        pictures: vec![Picture::svg("", "Steps of π f over the viewer's angle for six surfaces; those with many reflections lie nearer to 1.", chart.svg())],
         table: Some(chart::table(&[&chart])),
         checks,
         ..Figure::default()
     }
     .with("light", format!("{PSI}°"))
+    .with("samples", samples)
     .with("α", 1))
-}
-
-/// Albedo by sampling: the value of a walk is random, its weights are not worth a cubature.
-fn sampled(model: &Surface<f64>, view: LocalDir<f64>) -> f64 {
-    use sparrow_models::Uniforms;
-    use sparrow_stats::{Random, albedo};
-    let mut random = Random::named(0, "albedo");
-    let mut weight = |_| {
-        let u = Uniforms { lobe: random.uniform(), dir: [random.uniform(), random.uniform()] };
-        let s = model.sample(view, u);
-        if s.valid { s.weight.average() } else { 0.0 }
-    };
-    albedo(20_000, &mut weight).value()
 }

@@ -1,11 +1,10 @@
 //! Slide 18: both terms over the viewer's angle, with the slide's sign and the other one.
 
-use sparrow_math::{LocalDir, Real, vec3};
 use sparrow_models::{Bcsdf, Fibre};
 use sparrow_plot::draw::axis::Axis;
 use sparrow_plot::draw::cartesian::Rule;
 
-use crate::ask::fibre;
+use crate::ask::{fibre, inclined};
 use crate::chart::{self, Chart, Curve, steps};
 use crate::{Check, Figure, Formula, LectureError, Picture, Studio};
 
@@ -17,7 +16,10 @@ const EXPONENT: f64 = 20.0;
 const KNOWN: [([f64; 4], [f64; 3]); 5] = [
     ([20.0, 0.0, -25.0, 40.0], [0.939_692_620_785_908_4, 0.000_976_562_499_999_998_3, 0.926_583_410_496_794]),
     ([-10.0, 0.0, 15.0, 170.0], [0.984_807_753_012_208, 0.139_802_272_100_980_06, 0.926_583_410_496_791_9]),
-    ([45.0, 0.0, -30.0, 100.0], [0.707_106_781_186_547_6, 1.819_385_006_524_039e-12, 0.499_891_281_126_109_4]),
+    (
+        [45.0, 0.0, -30.0, 100.0],
+        [0.707_106_781_186_547_6, 1.819_385_006_524_039e-12, 0.499_891_281_126_109_4],
+    ),
     ([0.0, 0.0, 0.0, 0.0], [1.0, 1.0, 1.0]),
     ([60.0, 30.0, -50.0, 200.0], [0.5, 0.0, 0.736_256_563_474_647_1]),
 ];
@@ -35,11 +37,6 @@ fn terms() -> Result<[Fibre<f64>; 3], LectureError> {
     ])
 }
 
-fn inclined(theta: f64, phi: f64) -> LocalDir<f64> {
-    let ((s, c), (t, d)) = (Real::sin_cos(theta.to_radians()), Real::sin_cos(phi.to_radians()));
-    LocalDir::new(vec3(s, c * d, c * t))
-}
-
 /// Of angles from the tangent, as the slide has them.
 fn from_tangent(term: &Fibre<f64>, light: f64, eye: f64) -> f64 {
     term.f_cos(inclined(90.0 - eye, 0.0), inclined(90.0 - light, 0.0)).average()
@@ -52,27 +49,46 @@ pub(super) fn make(_: &Studio<'_>) -> Result<Figure, LectureError> {
     let mut checks = Vec::new();
     for (n, ([ti, pi, to, po], values)) in KNOWN.iter().enumerate() {
         let (i, o) = (inclined(*ti, *pi), inclined(*to, *po));
-        let off = terms.iter().zip(values).map(|(t, want)| (t.f_cos(o, i).average() - want).abs()).fold(0.0, f64::max);
-        checks.push(Check::at_most(format!("largest difference of the three terms from kk.F{}", n + 1), off, 1e-9));
+        let off = terms
+            .iter()
+            .zip(values)
+            .map(|(t, want)| (t.f_cos(o, i).average() - want).abs())
+            .fold(0.0, f64::max);
+        checks.push(Check::at_most(
+            format!("largest difference of the three terms from kk.F{}", n + 1),
+            off,
+            1e-9,
+        ));
     }
     let (mut charts, mut pictures) = (Vec::new(), Vec::new());
     for light in LIGHTS {
         let curve = |name: &str, k: usize| Curve::of(name, &x, |eye| from_tangent(&terms[k], light, eye));
         let chart = Chart {
             title: format!("Kajiya-Kay, θ_{{L}} = {light}°"),
-            subtitle: format!("angles from the tangent; s = {EXPONENT}; the mirror cone is at {}°", 180.0 - light),
+            subtitle: format!(
+                "angles from the tangent; s = {EXPONENT}; the mirror cone is at {}°",
+                180.0 - light
+            ),
             x: Axis::fixed("θ_{E}  [deg]", 0.0, 180.0, 6),
             y: Axis::fixed("term", 0.0, 1.1, 5),
-            curves: vec![curve("diffuse, sin θ_{L}", 0), curve("specular, as printed", 1), curve("specular, on the cone", 2)],
+            curves: vec![
+                curve("diffuse, sin θ_{L}", 0),
+                curve("specular, as printed", 1),
+                curve("specular, on the cone", 2),
+            ],
             rules: vec![Rule { at: 180.0 - light, label: "cone".to_owned() }],
         };
         let fine = steps(0.0, 180.0, 18_000);
-        for (k, want, name) in [(1, light, "as printed, beside the light"), (2, 180.0 - light, "on the mirror cone")] {
+        for (k, want, name) in
+            [(1, light, "as printed, beside the light"), (2, 180.0 - light, "on the mirror cone")]
+        {
             let value = |eye: &f64| from_tangent(&terms[k], light, *eye);
             let at = fine.iter().copied().max_by(|a, b| value(a).total_cmp(&value(b))).unwrap_or(f64::NAN);
             checks.push(Check::near(format!("θE of the peak for θL = {light}°, {name}"), at, want, 0.011));
         }
-        let alt = format!("Diffuse term and both highlights over the viewer's angle for light at {light} degrees from the tangent.");
+        let alt = format!(
+            "Diffuse term and both highlights over the viewer's angle for light at {light} degrees from the tangent."
+        );
         pictures.push(Picture::svg(&format!("{light}"), alt, chart.svg()));
         charts.push(chart);
     }

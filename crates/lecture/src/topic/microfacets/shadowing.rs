@@ -15,14 +15,18 @@ const CHOICES: [(&str, &str); 4] = [
     ("S = 1", "torrance_sparrow exponent=50 masking=none"),
     ("V-grooves", "torrance_sparrow exponent=50 masking=v_cavity"),
     ("Smith, S(θi) S(θo)", "torrance_sparrow exponent=50 masking=smith"),
-    ("Smith, correlated", "microfacet_reflection ndf=beckmann masking=smith alpha_x=0.19611613513818404 alpha_y=0.19611613513818404"),
+    (
+        "Smith, correlated",
+        "microfacet_reflection ndf=beckmann masking=smith alpha_x=0.19611613513818404 alpha_y=0.19611613513818404",
+    ),
 ];
 const ALUMINIUM: &str = "eta=0.77 k=6.08";
 
 /// Each choice for aluminium, or for mirrors that reflect all.
 fn models(white: bool) -> Result<Vec<Surface<f64>>, LectureError> {
     let of = |(_, words): &(&str, &str)| {
-        let constant = if words.starts_with("torrance") { "fresnel=constant" } else { "fresnel=constant f0=1" };
+        let constant =
+            if words.starts_with("torrance") { "fresnel=constant" } else { "fresnel=constant f0=1" };
         surface(&format!("{words} {}", if white { constant } else { ALUMINIUM }))
     };
     CHOICES.iter().map(of).collect()
@@ -55,7 +59,11 @@ pub(super) fn make(studio: &Studio<'_>) -> Result<Figure, LectureError> {
     };
     let mut checks = Vec::new();
     for (i, (name, _)) in CHOICES.iter().enumerate() {
-        checks.push(Check::at_most(format!("f(o, i) against f(i, o), largest relative difference: {name}"), asymmetry(&metal[i]), 1e-11));
+        checks.push(Check::at_most(
+            format!("f(o, i) against f(i, o), largest relative difference: {name}"),
+            asymmetry(&metal[i]),
+            1e-11,
+        ));
     }
     for (i, (name, _)) in CHOICES.iter().enumerate().skip(1) {
         let most = share.curves[i].points.iter().map(|p| p[1]).fold(0.0, f64::max);

@@ -58,7 +58,10 @@ pub(super) fn make(_: &Studio<'_>) -> Result<Figure, LectureError> {
         rules: Vec::new(),
     };
     let known = |name: &str, table: &[(f64, f64)], f: &dyn Fn(f64) -> f64| -> Vec<Check> {
-        table.iter().map(|(a, want)| Check::near(format!("F of {name} at {a}°"), f(*a), *want, 1e-9)).collect()
+        table
+            .iter()
+            .map(|(a, want)| Check::near(format!("F of {name} at {a}°"), f(*a), *want, 1e-9))
+            .collect()
     };
     let mut checks = known("0.77 + 6.08 i", &KNOWN_METAL, &metal);
     checks.extend(known("1.7", &KNOWN_OXIDE, &|a| dielectric(cos(a), OXIDE).0));
@@ -70,7 +73,12 @@ pub(super) fn make(_: &Studio<'_>) -> Result<Figure, LectureError> {
     let (at, _) = least(&metal);
     checks.push(Check::near("angle of the least F of the metal, between 75° and 85°", at, 80.0, 5.0));
     let (at, p) = least(&|a| split(a).1);
-    checks.push(Check::near("angle of the least F of the metal, p-polarised (pseudo-Brewster)", at, 80.503_548_76, 0.02));
+    checks.push(Check::near(
+        "angle of the least F of the metal, p-polarised (pseudo-Brewster)",
+        at,
+        80.503_548_76,
+        0.02,
+    ));
     checks.push(Check::near("the least F of the metal, p-polarised", p, 0.771_848_399_8, 1e-4));
     // A cosine of zero.
     for (name, f) in [("metal", conductor(0.0, METAL[0], METAL[1])), ("1.7", dielectric(0.0, OXIDE).0)] {

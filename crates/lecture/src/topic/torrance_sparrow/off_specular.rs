@@ -46,7 +46,10 @@ fn cartesian(title: &str, subtitle: &str, model: &Surface<f64>, highest: f64) ->
         subtitle: subtitle.to_owned(),
         x: Axis::degrees("θ  [deg]", -90.0, 90.0),
         y: Axis::fixed("f(θ) / f(ψ)", 0.0, highest, 6),
-        curves: PSI.iter().map(|psi| Curve::of(format!("ψ = {psi}°"), &x, |t| ratio(model, *psi, t))).collect(),
+        curves: PSI
+            .iter()
+            .map(|psi| Curve::of(format!("ψ = {psi}°"), &x, |t| ratio(model, *psi, t)))
+            .collect(),
         rules: Vec::new(),
     }
 }
@@ -75,15 +78,28 @@ fn peaks(model: &Surface<f64>, known: &Peaks, id: &str) -> Vec<Check> {
         let [got_at, got_height] = peak(model, *psi);
         // One step of the grid, and flat peaks.
         checks.push(Check::near(format!("place of the peak for ψ = {psi}° ({id})"), got_at, *at, 0.021));
-        checks.push(Check::near(format!("height of the peak for ψ = {psi}° over the mirror direction"), got_height, *height, 1e-5 * height));
+        checks.push(Check::near(
+            format!("height of the peak for ψ = {psi}° over the mirror direction"),
+            got_height,
+            *height,
+            1e-5 * height,
+        ));
     }
     checks
 }
 
 fn formulas() -> Vec<Formula> {
     vec![
-        Formula::new("f_r = k frac{F(ψ', n) G(ψ, θ) exp(-c^2 α^2)}{4 cos ψ cos θ} + frac{ρ_d}{π}", "[TorranceSparrow1967]", "models/src/surface/torrance_sparrow_1967.rs: eval"),
-        Formula::new("α = frac{θ - ψ}{2} , ψ' = frac{θ + ψ}{2}", "[TorranceSparrow1967]", "models/src/opaque.rs: new"),
+        Formula::new(
+            "f_r = k frac{F(ψ', n) G(ψ, θ) exp(-c^2 α^2)}{4 cos ψ cos θ} + frac{ρ_d}{π}",
+            "[TorranceSparrow1967]",
+            "models/src/surface/torrance_sparrow_1967.rs: eval",
+        ),
+        Formula::new(
+            "α = frac{θ - ψ}{2} , ψ' = frac{θ + ψ}{2}",
+            "[TorranceSparrow1967]",
+            "models/src/opaque.rs: new",
+        ),
     ]
 }
 
@@ -129,21 +145,35 @@ pub(super) fn magnesium_oxide(_: &Studio<'_>) -> Result<Figure, LectureError> {
             &model,
             6.5,
         );
-        let alt = format!("Reflectance over that in the mirror direction for five incidences, with a constant term of {share}.");
+        let alt = format!(
+            "Reflectance over that in the mirror direction for five incidences, with a constant term of {share}."
+        );
         pictures.push(Picture::svg(&format!("{share}"), alt, chart.svg()));
         charts.push(chart);
         for (psi, before) in PSI.iter().zip(&mut before) {
             let [_, height] = peak(&model, *psi);
             if share > 0.0 {
-                checks.push(Check::at_most(format!("peak for ψ = {psi}°, g/f = {share}, lower than with less"), height, *before));
+                checks.push(Check::at_most(
+                    format!("peak for ψ = {psi}°, g/f = {share}, lower than with less"),
+                    height,
+                    *before,
+                ));
             }
             if share > 0.0 && *psi >= 45.0 {
-                checks.push(Check::at_least(format!("peak for ψ = {psi}°, g/f = {share}, still above the mirror direction"), height, 1.1));
+                checks.push(Check::at_least(
+                    format!("peak for ψ = {psi}°, g/f = {share}, still above the mirror direction"),
+                    height,
+                    1.1,
+                ));
             }
             *before = height;
         }
     }
-    pictures.push(Picture::svg("polar", "The curves without a constant term in polar coordinates.", polar("Magnesium oxide, g/f = 0", &facets, 6.0)));
+    pictures.push(Picture::svg(
+        "polar",
+        "The curves without a constant term in polar coordinates.",
+        polar("Magnesium oxide, g/f = 0", &facets, 6.0),
+    ));
     let charts: Vec<&Chart> = charts.iter().collect();
     Ok(Figure {
         caption: format!(
