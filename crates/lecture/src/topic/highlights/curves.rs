@@ -3,12 +3,10 @@
 use sparrow_math::{Real, Vec3, vec3};
 use sparrow_plot::draw::table::Table;
 
+use super::predict::{cylinder_tangent, disc_tangent, sphere_tangent};
 use crate::measure::{Circle, Ridge, along, contour};
 use crate::overlay::{Mark, over};
 use crate::{Check, Figure, Formula, LectureError, Photo, Picture, Studio};
-
-/// Tangent of the fibres at a place of the picture's plane, x to the right and y upwards; none off the body.
-type Tangent = fn(f64, f64) -> Option<Vec3<f64>>;
 
 /// The lamp as the scenes have it.
 #[derive(Clone, Copy)]
@@ -30,9 +28,11 @@ struct Body {
     label: &'static str,
     alt: &'static str,
     lamp: Lamp,
-    /// The surface over a place, and the tangent there.
+    /// The surface over a place of the picture's plane, x to the right and y upwards; none off the body.
     height: fn(f64, f64) -> Option<f64>,
-    tangent: Tangent,
+    /// Tangent of the fibres at a point of the body, whose axis is z, and their turn in degrees from around it.
+    tangent: fn(Vec3<f64>, f64) -> Vec3<f64>,
+    turn_deg: f64,
 }
 
 /// Radius of the cylinders.
@@ -49,6 +49,12 @@ fn disc(x: f64, y: f64) -> Option<f64> {
     (x * x + y * y < 1.0).then_some(0.0)
 }
 
+/// That of a cylinder whose axis is y.
+fn upright_tangent(p: Vec3<f64>, turn: f64) -> Vec3<f64> {
+    let t = cylinder_tangent(vec3(p.z, p.x, p.y), turn);
+    vec3(t.y, t.z, t.x)
+}
+
 const SPHERE: [Body; 2] = [
     Body {
         scene: "sphere-parallels",
@@ -56,7 +62,8 @@ const SPHERE: [Body; 2] = [
         alt: "A ball seen from its pole with a bright straight line through the middle, under the predicted line.",
         lamp: Lamp::Far,
         height: ball,
-        tangent: |x, y| Some(vec3(-y, x, 0.0).normalized()),
+        tangent: sphere_tangent,
+        turn_deg: 0.0,
     },
     Body {
         scene: "sphere-meridians",
@@ -64,7 +71,8 @@ const SPHERE: [Body; 2] = [
         alt: "A ball seen from its pole with a bright ring that passes the middle, under the predicted ring.",
         lamp: Lamp::Far,
         height: ball,
-        tangent: |x, y| ball(x, y).map(|z| vec3(x, y, 0.0).normalized() * z - VIEWER * x.hypot(y)),
+        tangent: sphere_tangent,
+        turn_deg: 90.0,
     },
 ];
 const CYLINDER: [Body; 2] = [
@@ -74,7 +82,8 @@ const CYLINDER: [Body; 2] = [
         alt: "An upright cylinder with one bright upright line, under the predicted line.",
         lamp: Lamp::Far,
         height: cylinder,
-        tangent: |x, y| cylinder(x, y).map(|z| vec3(z, 0.0, -x) / R),
+        tangent: upright_tangent,
+        turn_deg: 0.0,
     },
     Body {
         scene: "cylinder-helix",
@@ -82,7 +91,8 @@ const CYLINDER: [Body; 2] = [
         alt: "An upright cylinder with one bright upright line, under the predicted line.",
         lamp: Lamp::Far,
         height: cylinder,
-        tangent: |x, y| cylinder(x, y).map(|z| vec3(z / R, 1.0, -x / R).normalized()),
+        tangent: upright_tangent,
+        turn_deg: 45.0,
     },
 ];
 const DISC: [Body; 2] = [
@@ -92,7 +102,8 @@ const DISC: [Body; 2] = [
         alt: "A disc with a bright line through its middle, under the predicted line.",
         lamp: NEARBY,
         height: disc,
-        tangent: |x, y| Some(vec3(-y, x, 0.0).normalized()),
+        tangent: disc_tangent,
+        turn_deg: 0.0,
     },
     Body {
         scene: "disc-radial",
@@ -100,7 +111,8 @@ const DISC: [Body; 2] = [
         alt: "A disc with a bright ring that passes its middle, under the predicted circle.",
         lamp: NEARBY,
         height: disc,
-        tangent: |x, y| Some(vec3(x, y, 0.0).normalized()),
+        tangent: disc_tangent,
+        turn_deg: 90.0,
     },
 ];
 
@@ -115,7 +127,8 @@ impl Body {
             }
             Lamp::At(place) => (place - p).normalized(),
         };
-        let value = (self.tangent)(x, y)?.dot((l + VIEWER).normalized());
+        let t = (self.tangent)(p, self.turn_deg.to_radians());
+        let value = t.dot((l + VIEWER).normalized());
         value.is_finite().then_some(value)
     }
 }
