@@ -27,6 +27,15 @@ impl Photo {
     pub fn grey(&self, x: usize, y: usize) -> f64 {
         self.at(x, y).iter().map(|v| f64::from(*v)).sum::<f64>() / 3.0
     }
+    /// The mean of [`grey`](Self::grey) over columns and rows from the first to before the last of each.
+    pub fn mean(&self, columns: std::ops::Range<usize>, rows: std::ops::Range<usize>) -> f64 {
+        let n = (columns.len() * rows.len()) as f64;
+        rows.map(|y| columns.clone().map(|x| self.grey(x, y)).sum::<f64>()).sum::<f64>() / n
+    }
+    /// The mean of [`grey`](Self::grey) over all pixels.
+    pub fn brightness(&self) -> f64 {
+        self.mean(0..self.size[0], 0..self.size[1])
+    }
     /// Where on the picture a point of the world is seen, in pixels from the top left corner; none behind the camera.
     pub fn place(&self, point: [f64; 3]) -> Option<[f64; 2]> {
         let camera = self.camera.to_world().inverse();

@@ -44,22 +44,30 @@ impl<'a> Studio<'a> {
     /// # Errors
     /// Where it cannot be written.
     pub fn lay(&self, name: &str, bytes: impl AsRef<[u8]>) -> Result<(), LectureError> {
-        let path = self.scenes.join(name);
+        let path = self.path(name);
+        if let Some(folder) = path.parent() {
+            let file = |source| LectureError::File { path: folder.to_path_buf(), source };
+            std::fs::create_dir_all(folder).map_err(file)?;
+        }
         std::fs::write(&path, bytes).map_err(|source| LectureError::File { path, source })
     }
-    /// Reads a scene of the folder: `sphere.pbrt`.
+    /// Where a file of the folder lies: `lecture/plate.inc`.
+    pub fn path(&self, name: &str) -> PathBuf {
+        self.scenes.join(name)
+    }
+    /// Reads a scene of the folder: `lecture/plate-45.pbrt`.
     ///
     /// # Errors
     /// What is wrong with it.
     pub fn open(&self, scene: &str) -> Result<SceneDesc, LectureError> {
-        sparrow_scene::read(&self.scenes.join(scene)).map_err(|e| fault(scene, &e))
+        sparrow_scene::read(&self.path(scene)).map_err(|e| fault(scene, &e))
     }
     /// Reads a scene, with other materials in the place of some of its named ones; see [`sparrow_scene::read_with_materials`].
     ///
     /// # Errors
     /// What is wrong with it.
     pub fn open_with(&self, scene: &str, materials: &[String]) -> Result<SceneDesc, LectureError> {
-        let path = self.scenes.join(scene);
+        let path = self.path(scene);
         sparrow_scene::read_with_materials(&path, materials).map_err(|e| fault(scene, &e))
     }
     /// Renders a description, with `spp` samples per pixel.
@@ -94,6 +102,19 @@ impl<'a> Studio<'a> {
     /// Where it cannot be read or rendered, or was stopped.
     pub fn render(&self, scene: &str, size: [u32; 2], spp: u32) -> Result<Photo, LectureError> {
         self.take(self.open(scene)?, size, spp)
+    }
+    /// Reads and renders a scene with another material in the place of one of its named ones.
+    ///
+    /// # Errors
+    /// Where it cannot be read or rendered, or was stopped.
+    pub fn render_with(
+        &self,
+        scene: &str,
+        material: &str,
+        size: [u32; 2],
+        spp: u32,
+    ) -> Result<Photo, LectureError> {
+        self.take(self.open_with(scene, &[material.to_owned()])?, size, spp)
     }
     /// Nothing, unless the work is to end.
     ///

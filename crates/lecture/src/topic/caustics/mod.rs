@@ -2,6 +2,7 @@
 
 mod density;
 mod fan;
+mod screen;
 
 use crate::entry::{Entry, Topic};
 
@@ -13,5 +14,6 @@ pub(super) const TOPIC: Topic = Topic {
     figures: &[
         Entry { id: "caustic-angle", title: "Where TRT turns back", rows: &[23], make: fan::make },
         Entry { id: "caustic-density", title: "Light around a caustic", rows: &[23], make: density::make },
+        Entry { id: "caustic-on-screen", title: "The caustic on a screen", rows: &[23], make: screen::make },
     ],
 };

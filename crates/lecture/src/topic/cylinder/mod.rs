@@ -4,6 +4,7 @@ mod azimuth;
 mod bundle;
 mod cone;
 mod half_vector;
+mod screen;
 
 use crate::entry::{Entry, Topic};
 
@@ -32,6 +33,12 @@ pub(super) const TOPIC: Topic = Topic {
             title: "The rule of the half vector",
             rows: &[14],
             make: half_vector::make,
+        },
+        Entry {
+            id: "cone-on-screen",
+            title: "The cone on a screen",
+            rows: &[10, 11, 12, 13, 14],
+            make: screen::make,
         },
     ],
 };

@@ -1,7 +1,9 @@
 //! Multiple importance sampling: slides 27 to 29.
 
+mod circular;
 mod circular_light;
 mod matrix;
+mod plates;
 mod weights;
 
 use crate::entry::{Entry, Topic};
@@ -19,5 +21,12 @@ pub(super) const TOPIC: Topic = Topic {
             make: matrix::make,
         },
         Entry { id: "weights", title: "Two techniques and their weights", rows: &[28], make: weights::make },
+        Entry {
+            id: "circular-light",
+            title: "A circular light over a rough surface",
+            rows: &[27],
+            make: circular::make,
+        },
+        Entry { id: "plate-scene", title: "The plate scene", rows: &[29], make: plates::make },
     ],
 };

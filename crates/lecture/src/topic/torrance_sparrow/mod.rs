@@ -3,6 +3,7 @@
 mod fresnel;
 mod g_over_cos;
 mod off_specular;
+mod rendered;
 
 use crate::entry::{Entry, Topic};
 
@@ -30,6 +31,18 @@ pub(super) const TOPIC: Topic = Topic {
             title: "Off-specular peaks: magnesium oxide",
             rows: &[6],
             make: off_specular::magnesium_oxide,
+        },
+        Entry {
+            id: "plates-aluminium",
+            title: "Plates and balls of aluminium",
+            rows: &[5],
+            make: rendered::aluminium,
+        },
+        Entry {
+            id: "plates-magnesium-oxide",
+            title: "Plates and balls of magnesium oxide",
+            rows: &[6],
+            make: rendered::magnesium_oxide,
         },
     ],
 };
