@@ -57,3 +57,19 @@ pub fn select(only: Option<&str>) -> Result<Vec<(&'static Topic, &'static Entry)
     };
     Err(LectureError::Unknown { name: name.to_owned(), remedy })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn figures_are_named_by_slide_and_by_id() {
+        let ids = |only| select(Some(only)).map(|all| all.iter().map(|(_, e)| e.id).collect::<Vec<_>>());
+        assert_eq!(ids("18").unwrap(), ["kajiya-kay-terms"]);
+        assert_eq!(ids("fresnel").unwrap(), ["fresnel"]);
+        let said = |only| ids(only).unwrap_err().to_string();
+        assert!(said("26").contains("neither title nor text"));
+        assert!(said("fresnell").contains("did you mean `fresnel`?"));
+        assert!(said("30").contains("slides go from 1 to 29"));
+    }
+}

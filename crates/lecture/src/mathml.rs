@@ -11,7 +11,7 @@
 //!
 //! Blanks part names and are otherwise of no meaning.
 
-/// The `math` element of a formula, with full-sized fractions.
+/// The `math` element of a formula.
 pub(crate) fn mathml(text: &str) -> String {
     let chars: Vec<char> = text.chars().collect();
     let mut reader = Reader { chars: &chars, at: 0 };
@@ -21,7 +21,7 @@ pub(crate) fn mathml(text: &str) -> String {
         // A closing brace too many is left out.
         reader.at += 1;
     }
-    format!("<math displaystyle=\"true\"><mrow>{body}</mrow></math>")
+    format!("<math><mrow>{body}</mrow></math>")
 }
 
 struct Reader<'a> {
@@ -146,7 +146,7 @@ mod tests {
 
     fn inner(text: &str) -> String {
         let all = mathml(text);
-        all["<math displaystyle=\"true\"><mrow>".len()..all.len() - "</mrow></math>".len()].to_owned()
+        all["<math><mrow>".len()..all.len() - "</mrow></math>".len()].to_owned()
     }
 
     #[test]

@@ -114,9 +114,18 @@ fn check(target: &Path, part: bool) -> Result<(), LectureError> {
 fn changed(book: &Path) -> Option<String> {
     let age = |path: &Path| -> Option<SystemTime> { path.metadata().ok()?.modified().ok() };
     let made = age(&book.join(RECORD))?;
-    let scenes = fs::read_dir(book.join("scenes")).ok()?;
-    let younger = scenes.flatten().find(|e| age(&e.path()).is_some_and(|t| t > made))?;
-    Some(format!("scenes/{}", younger.file_name().to_string_lossy()))
+    let mut folders = vec![book.join("scenes")];
+    while let Some(folder) = folders.pop() {
+        for entry in fs::read_dir(folder).ok()?.flatten() {
+            let path = entry.path();
+            if path.is_dir() {
+                folders.push(path);
+            } else if age(&path).is_some_and(|t| t > made) {
+                return Some(path.strip_prefix(book).unwrap_or(&path).display().to_string());
+            }
+        }
+    }
+    None
 }
 
 #[cfg(test)]
@@ -145,10 +154,10 @@ mod tests {
         write("second", false).unwrap();
         assert_eq!(read(), "second");
         assert!(write("part", true).is_err(), "a part does not replace the whole");
-        fs::create_dir_all(book.join("scenes")).unwrap();
-        fs::write(book.join("scenes/a.pbrt"), "changed").unwrap();
+        fs::create_dir_all(book.join("scenes/inner")).unwrap();
+        fs::write(book.join("scenes/inner/a.pbrt"), "changed").unwrap();
         let e = write("third", false).unwrap_err();
-        assert!(e.to_string().contains("scenes/a.pbrt"), "{e}");
+        assert!(e.to_string().contains("a.pbrt was changed"), "{e}");
         fs::remove_file(book.join(RECORD)).unwrap();
         assert!(write("fourth", false).is_err(), "this is no book");
         assert_eq!(read(), "second");

@@ -47,7 +47,14 @@ pub(super) fn make(studio: &Studio<'_>) -> Result<Figure, LectureError> {
             Formula::new("F = ∑_{k} frac{1}{n_k} ∑_{j} w_k(X_{kj}) frac{f(X_{kj})}{p_k(X_{kj})}", "[VeachGuibas1995]", "mis/src/estimator.rs: multi_sample"),
             Formula::new("V = ∑_{k} frac{1}{n_k} [ ∫ frac{w_k^2 f^2}{p_k} - (∫ w_k f)^2 ]", "[Veach1997, sec. 9.2]", "lecture/src/topic/mis/circular_light.rs: variances"),
         ],
-        pictures: vec![Picture::svg("", "Five fields of four by four: variance of light sampling, lobe sampling, balance, power and maximum.", heat(&values))],
+        pictures: STRATEGIES
+            .iter()
+            .zip(&values)
+            .map(|((name, _), v)| {
+                let alt = format!("A field of four by four: variance by {name}, over roughness and radius of the light.");
+                Picture::svg(&name.replace(' ', "-"), alt, heat(name, v))
+            })
+            .collect(),
         table: Some(table),
         checks,
         ..Figure::default()
@@ -73,7 +80,8 @@ fn departure(problem: &Problem, h: sparrow_mis::Heuristic, whole: f64, runs: u32
     (mean.value() - whole).abs() / mean.standard_error().max(1e-9 * whole)
 }
 
-fn heat(values: &[Vec<f64>]) -> String {
+/// The relative variance of one strategy over roughness and radius.
+fn heat(name: &str, values: &[f64]) -> String {
     let names = |title: &str, of: &dyn Fn(&Cell) -> String, step: usize| {
         let tick = |k: usize| Tick { at: k as f64 + 0.5, label: of(&CELLS[k * step]) };
         Axis {
@@ -84,18 +92,14 @@ fn heat(values: &[Vec<f64>]) -> String {
             ticks: (0..4).map(tick).collect(),
         }
     };
-    let panel = |((name, _), v): (&(&str, Option<sparrow_mis::Heuristic>), &Vec<f64>)| Panel {
-        title: (*name).to_owned(),
-        grid: Grid { nx: 4, ny: 4, values: v.iter().map(|v| v.max(1e-6)).collect() },
-    };
-    let mut page = page("What each technique costs", "variance over the square of the integral", Vec::new());
-    page.size = [1050.0, 800.0];
+    // What is below the scale, zero among it, has the darkest colour.
+    let grid = Grid { nx: 4, ny: 4, values: values.iter().map(|v| v.max(1e-6)).collect() };
     Heat {
-        page,
+        page: page(&format!("Variance: {name}"), "over the square of the integral; dark is good", Vec::new()),
         x: names("roughness α", &|c| c.alpha.to_string(), 1),
         y: names("radius of the light", &|c| format!("{:.2}", c.radius), 4),
         colour: Axis::log_fixed("relative variance", 1e-6, 1e3, 6),
-        panels: STRATEGIES.iter().zip(values).map(panel).collect(),
+        panels: vec![Panel { title: String::new(), grid }],
     }
     .svg()
 }
