@@ -112,7 +112,7 @@ pub(super) fn make(studio: &Studio<'_>) -> Result<Figure, LectureError> {
             no mirror image of the lamp but a band over flank, shoulder and haunch, where hairs are perpendicular to the half vector.\nOrange: \
             t·h = 0 for the hairs in front of each pixel, averaged over five by five pixels. Body and coat are made by formula."
             .to_owned(),
-        formulas: vec![Formula::new("t * h = 0", "[LuKoenderinkKappers2000]", "lecture/src/topic/anisotropic/horse.rs: Coat")],
+        formulas: vec![Formula::new("t * h = 0", "[LuKoenderinkKappers2000]", "lecture/src/topic/anisotropic/horse.rs: around")],
         commands: vec![
             format!("sparrow render scenes/{SCENE}"),
             format!(

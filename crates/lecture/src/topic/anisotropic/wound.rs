@@ -88,8 +88,8 @@ pub(super) fn make(studio: &Studio<'_>) -> Result<Figure, LectureError> {
             the thread, past the terminator of a smooth surface."
             .to_owned(),
         formulas: vec![
-            Formula::new("k_s cos^s (θ_o + θ_i)", "[KajiyaKay1989]", "models/src/fibre/kajiya_kay.rs: f"),
-            Formula::new("t * h = 0", "[PoulinFournier1990]", "models/src/surface/poulin_fournier.rs: f"),
+            Formula::new("k_s cos^s (θ_o + θ_i)", "[KajiyaKay1989]", "models/src/fibre/kajiya_kay.rs: f_cos_pdf"),
+            Formula::new("t * h = 0", "[PoulinFournier1990]", "models/src/surface/poulin_fournier.rs: eval"),
         ],
         ..Figure::default()
     };

@@ -97,7 +97,7 @@ pub(super) fn make(studio: &Studio<'_>) -> Result<Figure, LectureError> {
             .to_owned(),
         formulas: vec![
             Formula::new("φ(2, h) = 4 γ_t - 2 γ_i + 2 π", "[Marschner2003, sec. 5.2]", "lecture/src/topic/caustics/screen.rs: predicted"),
-            Formula::new("frac{dφ}{dh} = 0 : h_c^2 = frac{4 - η'^2}{3}", "[Marschner2003, sec. 5.2]", "models/src/cylinder"),
+            Formula::new("frac{dφ}{dh} = 0 : h_c^2 = frac{4 - η'^2}{3}", "[Marschner2003, sec. 5.2]", "models/src/cylinder/roots.rs: caustic"),
         ],
         commands: vec![
             "sparrow render scenes/lecture/caustic-front.pbrt".to_owned(),

@@ -83,7 +83,7 @@ pub(super) fn make(studio: &Studio<'_>) -> Result<Figure, LectureError> {
             projection screen, and the fibre is very slightly rough, so that the cone has some width."
             .to_owned(),
         formulas: vec![
-            Formula::new("r * t = - i * t", "[Marschner2003, sec. 3]", "models/src/fibre/microfacet_hair.rs: f"),
+            Formula::new("r * t = - i * t", "[Marschner2003, sec. 3]", "models/src/fibre/microfacet_hair.rs: f_cos_pdf"),
             Formula::new("N(φ) = frac{1}{4} cos frac{φ}{2}", "[Marschner2003, sec. 5]", "lecture/src/topic/cylinder/screen.rs: make"),
         ],
         commands: vec![

@@ -122,8 +122,8 @@ pub(super) fn make(studio: &Studio<'_>) -> Result<Figure, LectureError> {
             the same from all sides; all others let most light through."
             .to_owned(),
         formulas: vec![
-            Formula::new("θ_h = α_R , θ_h = α_TRT = - frac{3}{2} α_R", "[Marschner2003, table 1]", "models/src/fibre/marschner.rs"),
-            Formula::new("θ_o - 2 α , θ_o + 4 α", "[Chiang2016]", "models/src/fibre/hair.rs"),
+            Formula::new("θ_h = α_R , θ_h = α_TRT = - frac{3}{2} α_R", "[Marschner2003, table 1]", "models/src/fibre/marschner.rs: m"),
+            Formula::new("θ_o - 2 α , θ_o + 4 α", "[Chiang2016]", "models/src/fibre/hair.rs: tilted"),
         ],
         commands: MODELS.iter().map(|m| format!("sparrow render scenes/lecture/strand.pbrt --material '{}'", m.material(0.05))).collect(),
         pictures,

@@ -100,7 +100,7 @@ pub(super) fn make(studio: &Studio<'_>) -> Result<Figure, LectureError> {
             white at every colour, and what went through the hair is coloured: a second highlight below the first with light from the front, and a glowing tress with light from behind, \
             the more the less melanin there is."
             .to_owned(),
-        formulas: vec![Formula::new("S = frac{1}{cos^2 θ_d} sum_p M_p (θ_h) N_p (φ)", "[Marschner2003, eq. 8]", "models/src/fibre/marschner.rs")],
+        formulas: vec![Formula::new("S = frac{1}{cos^2 θ_d} sum_p M_p (θ_h) N_p (φ)", "[Marschner2003, eq. 8]", "models/src/fibre/marschner.rs: scattered")],
         commands,
         pictures,
         table: Some(table),

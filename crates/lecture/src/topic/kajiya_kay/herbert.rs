@@ -64,8 +64,8 @@ pub(super) fn make(studio: &Studio<'_>) -> Result<Figure, LectureError> {
             for light from the side alone."
             .to_owned(),
         formulas: vec![
-            Formula::new("S = k_d frac{1}{π^2} + k_s frac{cos^s (θ_o + θ_i)}{2 π B}", "[KajiyaKay1989]", "models/src/fibre/kajiya_kay.rs: f"),
-            Formula::new("S = sum_p M_p (θ_i, θ_o) A_p N_p (φ)", "[Chiang2016]", "models/src/fibre/hair.rs: f"),
+            Formula::new("S = k_d frac{1}{π^2} + k_s frac{cos^s (θ_o + θ_i)}{2 π B}", "[KajiyaKay1989]", "models/src/fibre/kajiya_kay.rs: f_cos_pdf"),
+            Formula::new("S = sum_p M_p (θ_i, θ_o) A_p N_p (φ)", "[Chiang2016]", "models/src/fibre/hair.rs: f_cos_pdf"),
         ],
         commands,
         pictures,

@@ -98,7 +98,7 @@ pub(super) fn make(studio: &Studio<'_>) -> Result<Figure, LectureError> {
             The numbers are measured in scenes/mis, where the lobe is aimed at the lamp's middle and variances have closed forms; the noise of wavelengths is divided out."
             .to_owned(),
         formulas: vec![
-            Formula::new("w_i = frac{p_i}{p_1 + p_2} , Y = w_1 frac{f(X_1)}{p_1 (X_1)} + w_2 frac{f(X_2)}{p_2 (X_2)}", "[VeachGuibas1995]", "mis/src/heuristic.rs"),
+            Formula::new("w_i = frac{p_i}{p_1 + p_2} , Y = w_1 frac{f(X_1)}{p_1 (X_1)} + w_2 frac{f(X_2)}{p_2 (X_2)}", "[VeachGuibas1995]", "mis/src/heuristic.rs: weight"),
         ],
         commands: vec![
             format!("sparrow render scenes/{SCENE} --mis light-only"),

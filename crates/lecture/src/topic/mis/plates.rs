@@ -98,8 +98,8 @@ pub(super) fn make(studio: &Studio<'_>) -> Result<Figure, LectureError> {
             plate 1 is the smoothest, lamp 1 the smallest. Radii and colours of the original are not known; this is the classroom version of the scene."
             .to_owned(),
         formulas: vec![
-            Formula::new("w_i = frac{p_i}{p_1 + p_2}", "[VeachGuibas1995]", "mis/src/heuristic.rs"),
-            Formula::new("F = B - c Z", "[Kondapaneni2019]", "mis/src/pair.rs"),
+            Formula::new("w_i = frac{p_i}{p_1 + p_2}", "[VeachGuibas1995]", "mis/src/heuristic.rs: weight"),
+            Formula::new("F = B - c Z", "[Kondapaneni2019]", "mis/src/pair.rs: slope"),
         ],
         commands: WAYS.iter().map(|(id, ..)| format!("sparrow render scenes/{SCENE} --spp 8 --resolution 480x320 --mis {id}")).collect(),
         pictures,
