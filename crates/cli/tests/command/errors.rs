@@ -54,7 +54,7 @@ fn help_and_version_are_no_errors() {
     let options = help.lines().filter(|l| l.trim_start().starts_with("--") || l.contains("-o, --"));
     assert_eq!(options.count(), 21, "{help}");
     // Help, version and the scene have no default.
-    assert_eq!(help.matches("[default:").count(), 20, "every option says its default: {help}");
+    assert_eq!(help.matches("[default:").count(), 21, "every option says its default: {help}");
     assert!(s.run("").out.contains("Usage: sparrow"));
 }
 
