@@ -11,7 +11,6 @@ macro_rules! scenes {
 pub(crate) const SCENES: &[(&str, &[u8])] = scenes! {
     "fibres/clip.ply"
     "fibres/herbert.hair"
-    "fibres/horse.hair"
     "fibres/tress-back.pbrt"
     "fibres/tress-front.pbrt"
     "fibres/tress-side.pbrt"
@@ -40,6 +39,7 @@ pub(crate) const SCENES: &[(&str, &[u8])] = scenes! {
     "lecture/herbert-kajiya-kay.pbrt"
     "lecture/herbert.inc"
     "lecture/highlight.inc"
+    "lecture/horse.hair"
     "lecture/model-fibre.pbrt"
     "lecture/model-surface.pbrt"
     "lecture/plate-10.pbrt"

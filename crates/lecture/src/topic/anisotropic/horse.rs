@@ -27,7 +27,7 @@ struct Coat {
 impl Coat {
     /// Draws points of all hairs, the nearest in each pixel.
     fn new(studio: &Studio<'_>, photo: &Photo) -> Result<Coat, LectureError> {
-        let path = studio.path("fibres/horse.hair");
+        let path = studio.path("lecture/horse.hair");
         let file = curve_files::read(&path).map_err(|e| LectureError::Figure(e.to_string()))?;
         let point = |i: usize| {
             let [x, y, z, _] = file.points[i].map(f64::from);

@@ -74,7 +74,7 @@ fn middle(photo: &Photo) -> f64 {
 
 /// Slides 24 and 25.
 pub(super) fn make(studio: &Studio<'_>) -> Result<Figure, LectureError> {
-    let (size, spp) = (studio.pick([10, 80], [32, 256]), studio.pick(24, 256));
+    let (size, spp) = (studio.pick([10, 80], [32, 256]), studio.pick(24, 96));
     let mut table = Table::new(["model", "part", "theta_deg", "brightness"]);
     let (mut pictures, mut checks) = (Vec::new(), Vec::new());
     for model in &MODELS {

@@ -62,7 +62,7 @@ fn errors(photo: &Photo) -> [[f64; 4]; 4] {
 pub(super) fn make(studio: &Studio<'_>) -> Result<Figure, LectureError> {
     let size = studio.pick([120, 80], [480, 320]);
     // Samples for errors, and few for the pictures, whose noise is to be seen.
-    let spp = studio.pick(64, 256);
+    let spp = studio.pick(64, 128);
     let mut table =
         Table::new(["plate", "lamp", "light_only", "bsdf_only", "balance", "power", "maximum", "optimal"]);
     let (mut pictures, mut all) = (Vec::new(), Vec::new());
