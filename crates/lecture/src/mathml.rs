@@ -3,7 +3,7 @@
 //! | written | means |
 //! | --- | --- |
 //! | `a_i`, `x^2`, `a_{ij}^2` | below, above, both |
-//! | `frac{a}{b}`, `sqrt{a}` | fraction, root |
+//! | `frac{a}{b}`, `sqrt{a}`, `sum` | fraction, root, sum |
 //! | `text{for all}` | words |
 //! | `theta`-like letters | written as they are: `θ_i` |
 //! | `cos θ` | a name of several letters, upright |
@@ -61,7 +61,7 @@ impl Reader<'_> {
     /// A name of several letters that is no construct.
     fn starts_function(&self) -> bool {
         let name: String = self.chars[self.at..].iter().take_while(|c| c.is_alphabetic()).collect();
-        name.chars().count() > 1 && !matches!(name.as_str(), "frac" | "sqrt" | "text")
+        name.chars().count() > 1 && !matches!(name.as_str(), "frac" | "sqrt" | "text" | "sum")
     }
     /// An atom with what stands below and above it.
     fn item(&mut self) -> String {
@@ -135,6 +135,7 @@ impl Reader<'_> {
                 self.at += usize::from(self.peek() == Some('}'));
                 format!("<mtext>{}</mtext>", words.replace('&', "&amp;").replace('<', "&lt;"))
             }
+            "sum" => "<mo>∑</mo>".to_owned(),
             _ => format!("<mi>{name}</mi>"),
         }
     }

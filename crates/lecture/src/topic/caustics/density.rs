@@ -97,7 +97,7 @@ pub(super) fn make(studio: &Studio<'_>) -> Result<Figure, LectureError> {
             are not perfect cylinders: the model cuts the peak out and puts a Gaussian of about the same light in its place."
             .to_owned(),
         formulas: vec![
-            Formula::new("N_p(φ) = ∑_{r} A_p(h_r) {| 2 frac{dΦ_p}{dh}(h_r) |}^{-1}", "[Marschner2003, sec. 5.2]", "models/src/cylinder/roots.rs: of_trt"),
+            Formula::new("N_p(φ) = sum_{r} A_p(h_r) {| 2 frac{dΦ_p}{dh}(h_r) |}^{-1}", "[Marschner2003, sec. 5.2]", "models/src/cylinder/roots.rs: of_trt"),
             Formula::new("Δh = min ( Δh_M , 2 sqrt{frac{2 w_c}{|Φ''_2(h_c)|}} )", "[Marschner2003, sec. 5.2.2]", "models/src/fibre/marschner.rs: caustic"),
         ],
         commands: vec!["sparrow plot marschner sigma_a=0.2 glint=2 wo=0 --kind caustic".to_owned()],

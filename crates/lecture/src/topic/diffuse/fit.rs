@@ -91,7 +91,7 @@ pub(super) fn make(studio: &Studio<'_>) -> Result<Figure, LectureError> {
             100.0 * left,
             100.0 * left_smith
         ),
-        formulas: vec![Formula::new("D_b = frac{∑_{b} g t}{∑_{b} g^2} , g = frac{G}{4} , t = frac{cos θ_i cos θ_o}{π}", "[Bouguer1760]", "models/src/surface/torrance_sparrow.rs: masking_over_4cos")],
+        formulas: vec![Formula::new("D_b = frac{sum_{b} g t}{sum_{b} g^2} , g = frac{G}{4} , t = frac{cos θ_i cos θ_o}{π}", "[Bouguer1760]", "models/src/surface/torrance_sparrow.rs: masking_over_4cos")],
         pictures: vec![Picture::svg("", "The fitted distribution falls from 0.5 at zero to nothing at 90 degrees.", chart.svg())],
         table: Some(chart::table(&[&chart])),
         checks,

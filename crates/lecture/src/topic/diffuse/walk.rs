@@ -99,7 +99,7 @@ pub(super) fn make(studio: &Studio<'_>) -> Result<Figure, LectureError> {
             told.join("; ")
         ),
         formulas: vec![
-            Formula::new("f = ∑_{k=1}^{∞} f_k", "[Heitz2016]", "models/src/microfacet/walk/mirrors.rs: walk"),
+            Formula::new("f = sum_{k=1}^{∞} f_k", "[Heitz2016]", "models/src/microfacet/walk/mirrors.rs: walk"),
             Formula::new("f = frac{ρ}{π} A (1 + r frac{s}{t}) + f_{text{ms}}", "[Portsmouth2024]", "models/src/surface/eon.rs: eval"),
         ],
         commands: vec!["sparrow plot microfacet_reflection energy=single,walk fresnel=constant f0=1 alpha=1 wo=45 --kind cartesian".to_owned()],

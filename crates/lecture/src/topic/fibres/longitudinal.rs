@@ -69,7 +69,7 @@ pub(super) fn make(_: &Studio<'_>) -> Result<Figure, LectureError> {
             .to_owned(),
         formulas: vec![
             Formula::new("M_p(θ_h) = g(β_p ; θ_h - α_p) , θ_h = frac{θ_i + θ_o}{2}", "[Marschner2003, sec. 4]", "models/src/fibre/marschner.rs: m"),
-            Formula::new("S = ∑_{p} frac{M_p(θ_h) N_p(η' ; φ)}{cos^2 θ_d}", "[Marschner2003, sec. 4]", "models/src/fibre/marschner.rs: scattered"),
+            Formula::new("S = sum_{p} frac{M_p(θ_h) N_p(η' ; φ)}{cos^2 θ_d}", "[Marschner2003, sec. 4]", "models/src/fibre/marschner.rs: scattered"),
         ],
         commands: vec![command],
         pictures,

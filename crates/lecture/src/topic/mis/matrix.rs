@@ -44,8 +44,8 @@ pub(super) fn make(studio: &Studio<'_>) -> Result<Figure, LectureError> {
             rough ones. Their weighted sum is nowhere bad. The power heuristic is better in the corners, where one technique is nearly perfect, and little worse between; maximum has no safe middle."
             .to_owned(),
         formulas: vec![
-            Formula::new("F = ∑_{k} frac{1}{n_k} ∑_{j} w_k(X_{kj}) frac{f(X_{kj})}{p_k(X_{kj})}", "[VeachGuibas1995]", "mis/src/estimator.rs: multi_sample"),
-            Formula::new("V = ∑_{k} frac{1}{n_k} [ ∫ frac{w_k^2 f^2}{p_k} - (∫ w_k f)^2 ]", "[Veach1997, sec. 9.2]", "lecture/src/topic/mis/circular_light.rs: variances"),
+            Formula::new("F = sum_{k} frac{1}{n_k} sum_{j} w_k(X_{kj}) frac{f(X_{kj})}{p_k(X_{kj})}", "[VeachGuibas1995]", "mis/src/estimator.rs: multi_sample"),
+            Formula::new("V = sum_{k} frac{1}{n_k} [ ∫ frac{w_k^2 f^2}{p_k} - (∫ w_k f)^2 ]", "[Veach1997, sec. 9.2]", "lecture/src/topic/mis/circular_light.rs: variances"),
         ],
         pictures: STRATEGIES
             .iter()

@@ -85,7 +85,7 @@ pub(super) fn make(_: &Studio<'_>) -> Result<Figure, LectureError> {
             .to_owned(),
         formulas: vec![
             Formula::new("w_i(x) = frac{p_i(x)}{p_1(x) + p_2(x)}", "[VeachGuibas1995]", "mis/src/heuristic.rs: weight"),
-            Formula::new("w_i = frac{(n_i p_i)^2}{∑_{k} (n_k p_k)^2}", "[VeachGuibas1995]", "mis/src/heuristic.rs: weight"),
+            Formula::new("w_i = frac{(n_i p_i)^2}{sum_{k} (n_k p_k)^2}", "[VeachGuibas1995]", "mis/src/heuristic.rs: weight"),
         ],
         pictures,
         table: Some(chart::table(&charts.iter().collect::<Vec<_>>())),
