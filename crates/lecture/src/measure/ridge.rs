@@ -66,7 +66,8 @@ mod tests {
         let slanted = |[x, y]: [f64; 2]| 0.8 * x + 0.6 * y - 20.0;
         let curve = contour([40, 40], |p| Some(slanted(p)));
         let light = |x: usize, y: usize| {
-            let d = slanted([x as f64 + 0.5, y as f64 + 0.5]) - 0.7;
+            // Wide enough for straight lines between pixels.
+            let d = (slanted([x as f64 + 0.5, y as f64 + 0.5]) - 0.7) / 3.0;
             1.0 / (1.0 + d * d)
         };
         let found = along(&curve, [40, 40], &light, 4.0);

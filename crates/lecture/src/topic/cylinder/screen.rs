@@ -90,7 +90,7 @@ pub(super) fn make(studio: &Studio<'_>) -> Result<Figure, LectureError> {
             format!("sparrow render scenes/{SCENE}"),
             format!(r#"sparrow render scenes/{SCENE} --material '"fibre" "string type" "hair" "float beta_m" 0.05 "float beta_n" 0.1 "float alpha" 0'"#),
         ],
-        pictures: vec![Picture::png("", "A bright ring on black, brightest at its right and fading to the left.", photo.png(1.5)?)],
+        pictures: vec![Picture::png("", "A bright ring on black, brightest at its right and fading to the left.", photo.png(0.6)?)],
         table: Some(table),
         checks: vec![
             Check::near("angle between fibre and ring, in degrees", at, BEAM_DEG, CLASS_DEG[1]),
