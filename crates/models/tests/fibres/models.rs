@@ -280,3 +280,30 @@ fn the_far_field_of_facets_is_the_mean_of_the_near_field() {
         assert!((mean / whole - 1.0).abs() < 1e-4, "{aspect} {tilt}: {mean} {whole}");
     }
 }
+
+/// The mean over h of all lobes of a model, its last choice `field`, against its far field.
+#[test]
+fn far_fields_are_the_mean_of_near_fields() {
+    use FibreKind::{EllipticalHair, Fur, Hair, ZinkeWeber};
+    let fur = [1.55, 0.6, 2.0, 0.4, 1.5, 0.3, 0.3, 3.0];
+    // Segments hold the light of their middle: half a percent, and more where the medulla ends within one.
+    let cases: [(FibreKind, &[u8], &[f64], f64); 4] = [
+        (Hair, &[0], &[1.55, 0.3, 0.35, 3.0], 5e-3),
+        (Fur, &[], &fur, 1e-2),
+        (ZinkeWeber, &[], &[1.55, 0.3, 0.35, 3.0], 5e-3),
+        (EllipticalHair, &[], &[1.55, 0.3, 0.35, 3.0, 0.7], 5e-3),
+    ];
+    for (kind, choices, reals, tolerance) in cases {
+        let at = |h: f64, field: u8| bind(kind, h, &[choices, &[field]].concat(), reals, &[0.2]);
+        for (wo, wi) in [(dir(20.0, 35.0), dir(-10.0, 80.0)), (dir(-50.0, 0.0), dir(40.0, 170.0))] {
+            let n = 2000;
+            // Evenly in the angle, as the light at the rims changes fast.
+            let near = |k: i32| {
+                let gamma = ((f64::from(k) + 0.5) / f64::from(n) - 0.5) * PI;
+                at(Real::sin(gamma), 0).f_cos(wo, wi).0[0] * Real::cos(gamma) * PI / f64::from(2 * n)
+            };
+            let (mean, far) = ((0..n).map(near).sum::<f64>(), at(0.0, 1).f_cos(wo, wi).0[0]);
+            assert!((mean / far - 1.0).abs() < tolerance, "{kind:?}: {mean} {far}");
+        }
+    }
+}
