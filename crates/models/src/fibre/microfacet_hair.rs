@@ -34,6 +34,8 @@ const NODES: usize = 32;
 const FEW: usize = 8;
 /// Least slope width.
 const ROUGHNESS: f64 = 0.02;
+/// A little less than a right angle.
+const RIGHT: f64 = FRAC_PI_2 - 1e-4;
 /// Least probability of a lobe, before normalisation.
 const LEAST: f64 = 0.02;
 
@@ -254,6 +256,12 @@ impl SeenFacets {
         }
         [self.over_width(wi, true), self.over_width(wi, false)]
     }
+    /// How far around the fibre from a direction's azimuth scales face it, in rad: at most half of the fibre, less where they lean away.
+    fn seen_scales(&self, w: &FibreDir<f64>) -> f64 {
+        let [s, c] = self.of.scales.tilt;
+        let least = -s * w.sin / (c * w.cos).max(1e-9);
+        if least > 0.0 { Real::acos(least.min(1.0)).min(RIGHT) } else { RIGHT }
+    }
     /// R of the far field: the value, over the part of the width that sees the light too, or the density.
     ///
     /// The azimuth of the normal is `psi = psi_h + atan(k tan x)` from that of the half vector, with which `D` becomes `cos^4 x`
@@ -268,13 +276,13 @@ impl SeenFacets {
         let [along, around] = scales.ggx.alphas();
         let slope = ((1.0 - C) * (1.0 + C)).max(0.0) * (around / along).sqr();
         let k = ((slope + (C * around).sqr()) / (slope + C.sqr()).max(1e-12)).min(1.0).sqrt().max(around);
-        // Limits of psi - psi_h, from the azimuths that viewer and light see.
-        let right = FRAC_PI_2 - 1e-4;
-        let to_o = turn(half, self.o.across);
-        let (mut low, mut high) = ((to_o - right).max(-right), (to_o + right).min(right));
+        // Limits of psi - psi_h, from the azimuths whose scales viewer and light see.
+        let (to_o, seen_o) = (turn(half, self.o.across), self.seen_scales(&self.o));
+        let (mut low, mut high) = ((to_o - seen_o).max(-RIGHT), (to_o + seen_o).min(RIGHT));
         if value {
-            let to_i = turn(half, FibreDir::new(wi).across);
-            (low, high) = (low.max(to_i - right), high.min(to_i + right));
+            let i = FibreDir::new(wi);
+            let (to_i, seen_i) = (turn(half, i.across), self.seen_scales(&i));
+            (low, high) = (low.max(to_i - seen_i), high.min(to_i + seen_i));
         }
         let (low, high) = (bent(low, k), bent(high, k));
         if low >= high {

@@ -307,3 +307,19 @@ fn far_fields_are_the_mean_of_near_fields() {
         }
     }
 }
+
+#[test]
+fn facets_that_lean_away_are_left_out_of_the_density() {
+    // Scales of 20 degrees on a flat fibre, seen from where a part of them is turned away.
+    let m = bind(FibreKind::MicrofacetHair, 0.0, &[1, 1], &[1.34, 0.06, 0.66, 20.0, 2.0], &[0.0]);
+    let wo = LocalDir::new(vec3(-0.5765, -0.4216, 0.7).normalized());
+    let whole = over_sphere(400, |wi| m.pdf(wo, wi));
+    let n = 48;
+    let u = |k: u32| (f64::from(k) + 0.5) / f64::from(n);
+    let kept = (0..n * n * n)
+        .filter(|k| m.sample(wo, Uniforms { lobe: u(k % n), dir: [u(k / n % n), u(k / (n * n))] }).valid)
+        .count();
+    let share = kept as f64 / f64::from(n * n * n);
+    // A grid of 48 across what is kept.
+    assert!(share < 0.99 && (whole - share).abs() < 1e-3, "{whole} {share}");
+}
