@@ -14,7 +14,7 @@
 //! Limits: single scattering at each surface; what is reflected inside more than once is left out; with roughness below 0.1 the nodes
 //! of TRT stand apart.
 
-use core::f64::consts::{FRAC_PI_2, PI};
+use core::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use sparrow_math::{LocalDir, Real, Vec3};
 use sparrow_spectra::Spectrum;
@@ -256,11 +256,10 @@ impl SeenFacets {
         }
         [self.over_width(wi, true), self.over_width(wi, false)]
     }
-    /// How far around the fibre from a direction's azimuth scales face it, in rad: at most half of the fibre, less where they lean away.
-    fn seen_scales(&self, w: &FibreDir<f64>) -> f64 {
+    /// How far around the fibre from a vector's azimuth scales face it, in rad; by its components along and across the fibre.
+    fn facing(&self, along: f64, across: f64) -> f64 {
         let [s, c] = self.of.scales.tilt;
-        let least = -s * w.sin / (c * w.cos).max(1e-9);
-        if least > 0.0 { Real::acos(least.min(1.0)).min(RIGHT) } else { RIGHT }
+        Real::acos((-s * along / (c * across).max(1e-9)).clamp(-1.0, 1.0)).min(PI - 1e-4)
     }
     /// R of the far field: the value, over the part of the width that sees the light too, or the density.
     ///
@@ -276,15 +275,15 @@ impl SeenFacets {
         let [along, around] = scales.ggx.alphas();
         let slope = ((1.0 - C) * (1.0 + C)).max(0.0) * (around / along).sqr();
         let k = ((slope + (C * around).sqr()) / (slope + C.sqr()).max(1e-12)).min(1.0).sqrt().max(around);
-        // Limits of psi - psi_h, from the azimuths whose scales viewer and light see.
-        let (to_o, seen_o) = (turn(half, self.o.across), self.seen_scales(&self.o));
-        let (mut low, mut high) = ((to_o - seen_o).max(-RIGHT), (to_o + seen_o).min(RIGHT));
+        // Limits of psi - psi_h, from the azimuths whose scales face the viewer, on his side of the fibre, the half vector and the light.
+        let seen = self.facing(sum.x, flat);
+        let seen_o = self.facing(self.o.sin, self.o.cos).min(RIGHT);
+        let mut limits = within([-seen, seen], turn(half, self.o.across), seen_o);
         if value {
             let i = FibreDir::new(wi);
-            let (to_i, seen_i) = (turn(half, i.across), self.seen_scales(&i));
-            (low, high) = (low.max(to_i - seen_i), high.min(to_i + seen_i));
+            limits = within(limits, turn(half, i.across), self.facing(i.sin, i.cos));
         }
-        let (low, high) = (bent(low, k), bent(high, k));
+        let [low, high] = limits.map(|x| bent(x, k));
         if low >= high {
             return 0.0;
         }
@@ -353,7 +352,13 @@ impl Seen for SeenFacets {
     }
 }
 
-/// `atan(tan x / k)`, x in [-pi/2, pi/2].
+/// The part of the limits, two angles in [-pi, pi], that lies within `reach` of `around`; all of it where that has two parts.
+fn within([low, high]: [f64; 2], around: f64, reach: f64) -> [f64; 2] {
+    let (a, b) = (around - reach, around + reach);
+    [if b - TAU > low { low } else { low.max(a) }, if a + TAU < high { high } else { high.min(b) }]
+}
+
+/// `atan(tan x / k)`, in the quadrant of x.
 fn bent(x: f64, k: f64) -> f64 {
     let (sin, cos) = Real::sin_cos(x);
     Real::atan2(sin, k * cos)

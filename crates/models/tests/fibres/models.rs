@@ -303,7 +303,7 @@ fn far_fields_are_the_mean_of_near_fields() {
                 at(Real::sin(gamma), 0).f_cos(wo, wi).0[0] * Real::cos(gamma) * PI / f64::from(2 * n)
             };
             let (mean, far) = ((0..n).map(near).sum::<f64>(), at(0.0, 1).f_cos(wo, wi).0[0]);
-            assert!((mean / far - 1.0).abs() < tolerance, "{kind:?}: {mean} {far}");
+            assert!((mean - far).abs() < tolerance * far + 1e-6, "{kind:?}: {mean} {far}");
         }
     }
 }
@@ -314,12 +314,15 @@ fn facets_that_lean_away_are_left_out_of_the_density() {
     let m = bind(FibreKind::MicrofacetHair, 0.0, &[1, 1], &[1.34, 0.06, 0.66, 20.0, 2.0], &[0.0]);
     let wo = LocalDir::new(vec3(-0.5765, -0.4216, 0.7).normalized());
     let whole = over_sphere(400, |wi| m.pdf(wo, wi));
-    let n = 48;
-    let u = |k: u32| (f64::from(k) + 0.5) / f64::from(n);
-    let kept = (0..n * n * n)
-        .filter(|k| m.sample(wo, Uniforms { lobe: u(k % n), dir: [u(k / n % n), u(k / (n * n))] }).valid)
+    // Most of what is lost depends on the place across the fibre.
+    let [n, few] = [4096, 8];
+    let u = |k: u32, n: u32| (f64::from(k) + 0.5) / f64::from(n);
+    let kept = (0..n * few * few)
+        .filter(|k| {
+            let dir = [u(k / n % few, few), u(k / (n * few), few)];
+            m.sample(wo, Uniforms { lobe: u(k % n, n), dir }).valid
+        })
         .count();
-    let share = kept as f64 / f64::from(n * n * n);
-    // A grid of 48 across what is kept.
+    let share = kept as f64 / f64::from(n * few * few);
     assert!(share < 0.99 && (whole - share).abs() < 1e-3, "{whole} {share}");
 }
