@@ -1,9 +1,9 @@
 //! Models by the words of `sparrow plot`, and what figures ask of them.
 
 use sparrow_math::{LocalDir, Real, vec3};
-use sparrow_models::{Bsdf, Fibre, FibreKind, Surface, SurfaceKind};
+use sparrow_models::{Bcsdf, Bsdf, BsdfSample, Fibre, FibreKind, N_LOBES, Surface, SurfaceKind, Uniforms};
 use sparrow_plot::figure::plane_direction;
-use sparrow_plot::{Options, Series, draw_fibres, draw_figure, parse_series};
+use sparrow_plot::{Options, Quantity, Series, draw_fibres, draw_figure, parse_series};
 
 use crate::chart::SIZE;
 use crate::error::LectureError;
@@ -29,10 +29,40 @@ pub(crate) fn fibre(text: &str) -> Result<Fibre<f64>, LectureError> {
     Ok(first.model_at(first.h.unwrap_or(0.0)))
 }
 
+// Models are inlined whole into whoever calls them, so that each question stands here once: others would cost seconds of building.
+
+/// `f(wo, wi)` in 1/sr, the mean over the wavelengths.
+pub(crate) fn value(model: &Surface<f64>, wo: LocalDir<f64>, wi: LocalDir<f64>) -> f64 {
+    Quantity::F.of(model, wo, wi)
+}
+
+/// The density of sampling, in 1/sr.
+pub(crate) fn density(model: &Surface<f64>, wo: LocalDir<f64>, wi: LocalDir<f64>) -> f64 {
+    Quantity::Pdf.of(model, wo, wi)
+}
+
+/// A sample of a surface.
+#[inline(never)]
+pub(crate) fn sample(model: &Surface<f64>, wo: LocalDir<f64>, u: Uniforms<f64>) -> BsdfSample<f64> {
+    model.sample(wo, u)
+}
+
+/// A sample of a fibre.
+#[inline(never)]
+pub(crate) fn scattered(model: &Fibre<f64>, wo: LocalDir<f64>, u: Uniforms<f64>) -> BsdfSample<f64> {
+    model.sample(wo, u)
+}
+
+/// `S cos theta_i` of a fibre by lobe, in 1/sr, the mean over the wavelengths.
+#[inline(never)]
+pub(crate) fn lobes(model: &Fibre<f64>, wo: LocalDir<f64>, wi: LocalDir<f64>) -> [f64; N_LOBES] {
+    model.lobes(wo, wi).map(|q| q.average())
+}
+
 /// `f` for light at `psi` degrees and a viewer at `theta` degrees in the plane of incidence, positive on the mirror's side.
 pub(crate) fn f_in_plane(model: &Surface<f64>, psi: f64, theta: f64) -> f64 {
     let light = LocalDir::from_angles(psi.to_radians(), 0.0);
-    model.f(light, plane_direction([psi, 0.0], theta)).average()
+    value(model, light, plane_direction([psi, 0.0], theta))
 }
 
 /// The directions of a pair of the reference sheet: polar angle and azimuth of light and viewer, in degrees.

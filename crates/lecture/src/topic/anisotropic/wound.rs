@@ -1,12 +1,12 @@
 //! Slide 17: three models of the same body, a ball wound with thread.
 
 use sparrow_math::{LocalDir, Real};
-use sparrow_models::{Bcsdf, Uniforms};
+use sparrow_models::Uniforms;
 use sparrow_plot::draw::table::{Field, Table};
 use sparrow_plot::figure::albedo;
 use sparrow_stats::Random;
 
-use crate::ask::{fibre, surface};
+use crate::ask::{fibre, scattered, surface};
 use crate::measure::{peak, smoothed};
 use crate::{Check, Figure, Formula, LectureError, Photo, Picture, Studio};
 
@@ -59,7 +59,8 @@ fn albedos() -> Result<[(&'static str, [f64; 4]); 3], LectureError> {
     let mut thread = |deg: f64| {
         let n = 20_000;
         let weight = |_| {
-            kay.sample(
+            scattered(
+                &kay,
                 seen(deg),
                 Uniforms { lobe: random.uniform(), dir: [random.uniform(), random.uniform()] },
             )

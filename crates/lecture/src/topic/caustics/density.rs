@@ -6,11 +6,11 @@ use sparrow_math::Real;
 use sparrow_models::cylinder::attenuation::Inside;
 use sparrow_models::cylinder::azimuthal::{exit_azimuth, wrapped};
 use sparrow_models::cylinder::roots::of_trt;
-use sparrow_models::{Bcsdf, Fibre, fibre_cosine};
+use sparrow_models::{Fibre, fibre_cosine};
 use sparrow_plot::draw::axis::Axis;
 use sparrow_spectra::Spectrum;
 
-use crate::ask::{fibre, inclined};
+use crate::ask::{fibre, inclined, lobes};
 use crate::chart::{self, Chart, Curve, steps};
 use crate::{Check, Figure, Formula, LectureError, Picture, Studio};
 
@@ -48,7 +48,7 @@ fn smoothed(model: &Fibre<f64>, phi: f64) -> f64 {
     // theta_d = 0, and theta_h = 11.25 degrees is the middle of TRT.
     let (o, i) = (inclined(11.25, 0.0), inclined(11.25, phi));
     let m = 0.5 / (15.0_f64.to_radians() * (2.0 * PI).sqrt());
-    model.lobes(o, i)[2].average() / (m * fibre_cosine(i))
+    lobes(model, o, i)[2] / (m * fibre_cosine(i))
 }
 
 /// Shares of `n` rays of even offsets in cells of a degree from -60, and the sum over all azimuths.

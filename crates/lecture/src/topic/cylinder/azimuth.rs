@@ -3,13 +3,13 @@
 use core::f64::consts::PI;
 
 use sparrow_math::Real;
+use sparrow_models::Uniforms;
 use sparrow_models::cylinder::FibreDir;
 use sparrow_models::cylinder::roots::of_r;
-use sparrow_models::{Bcsdf, Uniforms};
 use sparrow_plot::draw::axis::Axis;
 use sparrow_stats::{Cell, Random, chi_square};
 
-use crate::ask::{fibre, inclined};
+use crate::ask::{fibre, inclined, scattered};
 use crate::chart::{self, Chart, Curve, steps};
 use crate::{Check, Figure, Formula, LectureError, Picture, Studio};
 
@@ -34,7 +34,7 @@ pub(super) fn make(studio: &Studio<'_>) -> Result<Figure, LectureError> {
     let mut counts = [0.0_f64; CELLS];
     for _ in 0..rays {
         let u = Uniforms { lobe: 0.5, dir: [random.uniform(), random.uniform()] };
-        let phi = from.azimuth_to(&FibreDir::new(far.sample(light, u).wi));
+        let phi = from.azimuth_to(&FibreDir::new(scattered(&far, light, u).wi));
         let cell = ((phi + PI) / (2.0 * PI) * CELLS as f64) as usize;
         counts[cell.min(CELLS - 1)] += 1.0;
     }

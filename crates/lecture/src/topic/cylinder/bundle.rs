@@ -1,12 +1,12 @@
 //! Slide 10: parallel rays that meet a mirror cylinder, seen along its axis.
 
 use sparrow_math::{LocalDir, Real, vec3};
-use sparrow_models::{Bcsdf, Uniforms};
+use sparrow_models::Uniforms;
 use sparrow_plot::draw::svg::Pen;
 use sparrow_plot::draw::table::Table;
 use sparrow_plot::draw::theme::LIGHT;
 
-use crate::ask::{fibre, inclined};
+use crate::ask::{fibre, inclined, scattered};
 use crate::sketch::{Sketch, turn};
 use crate::{Check, Figure, Formula, LectureError, Picture, Studio};
 
@@ -22,7 +22,7 @@ const KNOWN: [(f64, [f64; 3]); 4] = [
 /// Where a mirror cylinder sends light from `from` that meets it at the offset `h`.
 pub(super) fn reflected(from: LocalDir<f64>, h: f64) -> Result<LocalDir<f64>, LectureError> {
     let u = Uniforms { lobe: 0.5, dir: [0.5, 0.5] };
-    Ok(fibre(&format!("mirror_cylinder h={h}"))?.sample(from, u).wi)
+    Ok(scattered(&fibre(&format!("mirror_cylinder h={h}"))?, from, u).wi)
 }
 
 /// Makes the figure.

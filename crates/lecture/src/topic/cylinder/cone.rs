@@ -1,7 +1,7 @@
 //! Slides 11 and 12: the cone that reflected rays form, and its circle on the sphere of directions.
 
 use sparrow_math::{LocalDir, Vec3, vec3};
-use sparrow_models::{Bcsdf, Uniforms};
+use sparrow_models::Uniforms;
 use sparrow_plot::draw::page::Entry;
 use sparrow_plot::draw::svg::Pen;
 use sparrow_plot::draw::table::Table;
@@ -9,7 +9,7 @@ use sparrow_plot::draw::theme::LIGHT;
 use sparrow_stats::Random;
 
 use super::bundle::reflected;
-use crate::ask::{fibre, inclined};
+use crate::ask::{fibre, inclined, scattered};
 use crate::sketch::{Sketch, turn};
 use crate::{Check, Figure, Formula, LectureError, Picture, Studio};
 
@@ -110,7 +110,7 @@ pub(super) fn sphere(studio: &Studio<'_>) -> Result<Figure, LectureError> {
         let mut off = 0.0_f64;
         for k in 0..studio.pick(2000, 20_000) {
             let u = Uniforms { lobe: 0.5, dir: [random.uniform(), random.uniform()] };
-            let out = far.sample(light, u).wi;
+            let out = scattered(&far, light, u).wi;
             // The angle with the tangent downwards is that of the light with the tangent upwards.
             off = off.max((out.v().dot(vec3(-1.0, 0.0, 0.0)) - light.x()).abs());
             if k < 300 {

@@ -1,12 +1,12 @@
 //! Slide 14: fibres that are tangent to the plane across the half vector reflect.
 
 use sparrow_math::{LocalDir, Real, Vec3, vec3};
-use sparrow_models::{Bcsdf, Fibre};
+use sparrow_models::Fibre;
 use sparrow_plot::draw::axis::Axis;
 use sparrow_stats::Random;
 
 use super::bundle::reflected;
-use crate::ask::fibre;
+use crate::ask::{fibre, lobes};
 use crate::chart::{self, Chart, Curve, steps};
 use crate::{Check, Figure, Formula, LectureError, Picture, Studio};
 
@@ -28,7 +28,7 @@ fn seen(model: &Fibre<f64>, angle: f64, out: f64) -> f64 {
     let normal = tangent.cross(side);
     let local = |w: Vec3<f64>| LocalDir::new(vec3(w.dot(tangent), w.dot(side), w.dot(normal)));
     let [light, viewer] = light_and_viewer();
-    model.lobes(local(viewer), local(light))[0].average()
+    lobes(model, local(viewer), local(light))[0]
 }
 
 /// Makes the figure.

@@ -3,11 +3,10 @@
 use core::f64::consts::{FRAC_PI_2, PI};
 
 use sparrow_math::{LocalDir, Real};
-use sparrow_models::Bsdf;
 use sparrow_plot::draw::axis::Axis;
 use sparrow_stats::Random;
 
-use crate::ask::surface;
+use crate::ask::{surface, value};
 use crate::chart::{self, Chart, Curve};
 use crate::{Check, Figure, Formula, LectureError, Picture, Studio};
 
@@ -47,7 +46,7 @@ fn fit(words: &str, pairs: u32, seed: u64) -> Result<([f64; BINS], f64), Lecture
         let alpha = Real::atan2((half.x * half.x + half.y * half.y).sqrt(), half.z);
         let bin = &mut bins[((alpha / FRAC_PI_2 * BINS as f64) as usize).min(BINS - 1)];
         let cosines = i.z() * o.z();
-        let (g, t) = (unit.f(o, i).average() * cosines, cosines / PI);
+        let (g, t) = (value(&unit, o, i) * cosines, cosines / PI);
         bin.gt += g * t;
         bin.gg += g * g;
         bin.tt += t * t;

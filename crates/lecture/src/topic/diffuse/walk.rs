@@ -1,11 +1,11 @@
 //! Slide 7: reflections that follow each other make a surface white and even.
 
 use sparrow_math::{LocalDir, Real};
-use sparrow_models::{Bsdf, Surface, Uniforms};
+use sparrow_models::{Surface, Uniforms};
 use sparrow_plot::draw::axis::Axis;
 use sparrow_stats::Random;
 
-use crate::ask::surface;
+use crate::ask::{sample, surface};
 use crate::chart::{self, Chart, Curve};
 use crate::{Check, Figure, Formula, LectureError, Picture, Studio};
 
@@ -31,7 +31,7 @@ fn rings(model: &Surface<f64>, samples: u32) -> [f64; RINGS] {
     let mut rings = [0.0_f64; RINGS];
     for _ in 0..samples {
         let u = Uniforms { lobe: random.uniform(), dir: [random.uniform(), random.uniform()] };
-        let s = model.sample(view, u);
+        let s = sample(model, view, u);
         if s.valid && s.wi.z() > 0.0 {
             let ring = (s.wi.sin2_theta() * RINGS as f64) as usize;
             rings[ring.min(RINGS - 1)] += s.weight.average() * RINGS as f64 / f64::from(samples);

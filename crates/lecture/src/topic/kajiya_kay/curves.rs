@@ -1,10 +1,10 @@
 //! Slide 18: both terms over the viewer's angle, with the slide's sign and the other one.
 
-use sparrow_models::{Bcsdf, Fibre};
+use sparrow_models::Fibre;
 use sparrow_plot::draw::axis::Axis;
 use sparrow_plot::draw::cartesian::Rule;
 
-use crate::ask::{fibre, inclined};
+use crate::ask::{fibre, inclined, lobes};
 use crate::chart::{self, Chart, Curve, steps};
 use crate::{Check, Figure, Formula, LectureError, Picture, Studio};
 
@@ -39,7 +39,7 @@ fn terms() -> Result<[Fibre<f64>; 3], LectureError> {
 
 /// Of angles from the tangent, as the slide has them.
 fn from_tangent(term: &Fibre<f64>, light: f64, eye: f64) -> f64 {
-    term.f_cos(inclined(90.0 - eye, 0.0), inclined(90.0 - light, 0.0)).average()
+    lobes(term, inclined(90.0 - eye, 0.0), inclined(90.0 - light, 0.0))[0]
 }
 
 /// Makes the figure.
@@ -49,11 +49,8 @@ pub(super) fn make(_: &Studio<'_>) -> Result<Figure, LectureError> {
     let mut checks = Vec::new();
     for (n, ([ti, pi, to, po], values)) in KNOWN.iter().enumerate() {
         let (i, o) = (inclined(*ti, *pi), inclined(*to, *po));
-        let off = terms
-            .iter()
-            .zip(values)
-            .map(|(t, want)| (t.f_cos(o, i).average() - want).abs())
-            .fold(0.0, f64::max);
+        let off =
+            terms.iter().zip(values).map(|(t, want)| (lobes(t, o, i)[0] - want).abs()).fold(0.0, f64::max);
         checks.push(Check::at_most(
             format!("largest difference of the three terms from kk.F{}", n + 1),
             off,

@@ -3,7 +3,7 @@
 use sparrow_plot::draw::axis::Axis;
 use sparrow_plot::figure::albedo;
 
-use crate::ask::{f_in_plane, pair, surface};
+use crate::ask::{f_in_plane, pair, surface, value};
 use crate::chart::{self, Chart, Curve, steps};
 use crate::{Check, Figure, Formula, LectureError, Picture, Studio};
 
@@ -79,8 +79,7 @@ fn checks() -> Result<Vec<Check>, LectureError> {
     for (n, (directions, values)) in KNOWN.iter().enumerate() {
         let [i, o] = pair(*directions);
         for (k, (model, want)) in models.iter().zip(values).enumerate() {
-            use sparrow_models::Bsdf;
-            let got = model.f(o, i).average();
+            let got = value(model, o, i);
             checks.push(Check::near(
                 format!("f at s = 20, {}, pair P{} (phong.n20.P{})", FORMS[k].1, n + 1, n + 1),
                 got,

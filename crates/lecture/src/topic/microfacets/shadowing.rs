@@ -1,12 +1,12 @@
 //! Slide 2: Fresnel's term and what facets hide of each other.
 
 use sparrow_math::LocalDir;
-use sparrow_models::{Bsdf, Surface};
+use sparrow_models::Surface;
 use sparrow_plot::draw::axis::Axis;
 use sparrow_plot::figure::albedo;
 use sparrow_stats::Random;
 
-use crate::ask::{f_in_plane, surface};
+use crate::ask::{f_in_plane, surface, value};
 use crate::chart::{self, Chart, Curve, steps};
 use crate::{Check, Figure, Formula, LectureError, Picture, Studio};
 
@@ -104,7 +104,7 @@ fn asymmetry(model: &Surface<f64>) -> f64 {
     let mut largest = 0.0_f64;
     for _ in 0..1000 {
         let (i, o) = (upper(), upper());
-        let [a, b] = [model.f(o, i).average(), model.f(i, o).average()];
+        let [a, b] = [value(model, o, i), value(model, i, o)];
         largest = largest.max((a - b).abs() / a.max(b).max(1e-30));
     }
     largest

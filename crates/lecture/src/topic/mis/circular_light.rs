@@ -7,11 +7,11 @@ use core::f64::consts::PI;
 
 use sparrow_math::{LocalDir, vec3, warp};
 use sparrow_mis::{Heuristic, Technique};
-use sparrow_models::{Bsdf, Surface, Uniforms};
+use sparrow_models::{Surface, Uniforms};
 use sparrow_stats::Random;
 
 use crate::LectureError;
-use crate::ask::surface;
+use crate::ask::{density, sample, surface};
 
 /// Distance of the light.
 const DISTANCE: f64 = 4.0;
@@ -81,7 +81,7 @@ impl Problem {
     /// Both densities in 1/sr at the angle with `1 - cos = t`.
     pub(super) fn pdf(&self, t: f64) -> [f64; 2] {
         let light = if t <= self.cap { 1.0 / (2.0 * PI * self.cap) } else { 0.0 };
-        [light, self.lobe.pdf(direction(0.0), direction(t))]
+        [light, density(&self.lobe, direction(0.0), direction(t))]
     }
     /// The integrand: the lobe where the light is, for a radiance of one.
     pub(super) fn f(&self, t: f64) -> f64 {
@@ -94,7 +94,7 @@ impl Problem {
             let w = warp::uniform_cone(u, self.cap);
             return (w.x * w.x + w.y * w.y) / (1.0 + w.z);
         }
-        let s = self.lobe.sample(direction(0.0), Uniforms { lobe: random.uniform(), dir: u });
+        let s = sample(&self.lobe, direction(0.0), Uniforms { lobe: random.uniform(), dir: u });
         if s.valid { s.wi.sin2_theta() / (1.0 + s.wi.z()) } else { 1.0 }
     }
     /// `int g dω` over the light's cone, for `g` of the angle.
