@@ -2,7 +2,10 @@
 
 mod cloth;
 mod grid;
+mod helix;
 mod herbert;
+mod horse;
+mod spool;
 mod textures;
 mod vase;
 
@@ -11,13 +14,25 @@ use std::path::Path;
 
 use sparrow_image::{Encoding, Image, Pixels, write_png};
 
-/// Writes `textures/*.png` and `meshes/*.ply` into the folder of the scenes.
+/// Files of text, with the folder of each.
+fn texts() -> [(&'static str, String); 6] {
+    [
+        ("meshes/cloth.ply", cloth::ply()),
+        ("meshes/helix.ply", helix::ply()),
+        ("meshes/herbert.ply", herbert::ply()),
+        ("meshes/horse.ply", horse::ply()),
+        ("meshes/vase.ply", vase::ply()),
+        ("lecture/spool.inc", spool::curve()),
+    ]
+}
+
+/// Writes `textures/*.png`, `meshes/*.ply` and `lecture/spool.inc` into the folder of the scenes.
 ///
 /// # Errors
 /// The file that cannot be written, and why.
 pub fn write(scenes: &Path) -> Result<String, String> {
     let mut report = Vec::new();
-    for folder in ["textures", "meshes"] {
+    for folder in ["textures", "meshes", "lecture"] {
         let folder = scenes.join(folder);
         fs::create_dir_all(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
     }
@@ -26,8 +41,8 @@ pub fn write(scenes: &Path) -> Result<String, String> {
         png(&path, side, colour)?;
         report.push(path);
     }
-    for (name, text) in [("cloth", cloth::ply()), ("herbert", herbert::ply()), ("vase", vase::ply())] {
-        let path = scenes.join(format!("meshes/{name}.ply"));
+    for (name, text) in texts() {
+        let path = scenes.join(name);
         fs::write(&path, text).map_err(|e| format!("{}: {e}", path.display()))?;
         report.push(path);
     }
@@ -57,7 +72,7 @@ mod tests {
         let fresh = std::env::temp_dir().join(format!("xtask-assets-{}", std::process::id()));
         write(&fresh).expect("assets");
         let mut names: Vec<String> = textures::ALL.iter().map(|(n, ..)| format!("textures/{n}")).collect();
-        names.extend(["cloth", "herbert", "vase"].map(|n| format!("meshes/{n}.ply")));
+        names.extend(texts().map(|(name, _)| name.to_owned()));
         for name in names {
             let [old, new] = [scenes.join(&name), fresh.join(&name)].map(|p| fs::read(p).expect("a file"));
             assert!(old == new, "{name} differs; run `cargo run -p xtask -- assets`");
