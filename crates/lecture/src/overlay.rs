@@ -8,8 +8,8 @@ use crate::measure::Segment;
 pub(crate) enum Mark<'a> {
     /// A line of many pieces.
     Curve(&'a [Segment]),
-    /// A word at a place, in pixels from the top left corner.
-    Word([f64; 2], &'a str),
+    /// Words at a place, in pixels from the top left corner, that are smaller where they would be wider than so many pixels of the document.
+    Word([f64; 2], &'a str, f64),
 }
 
 /// An SVG document with the PNG file `png` of `size` pixels, `scale` times as large, and marks over it.
@@ -35,8 +35,8 @@ pub(crate) fn over(png: &[u8], size: [usize; 2], scale: f64, marks: &[Mark<'_>])
                 }
                 out.push_str("\"/>\n");
             }
-            Mark::Word([x, y], word) => {
-                let size = 11.0 / scale;
+            Mark::Word([x, y], word, width) => {
+                let size = (1.7 * width / word.len() as f64).min(11.0) / scale;
                 let _ = writeln!(
                     out,
                     "<text x=\"{x:.2}\" y=\"{y:.2}\" fill=\"#b34700\" font-family=\"sans-serif\" font-size=\"{size:.2}\">{word}</text>"
@@ -86,7 +86,7 @@ mod tests {
     #[test]
     fn the_document_is_well_formed() {
         let curve = [[[1.0, 2.0], [3.0, 4.0]]];
-        let svg = over(&[1, 2, 3], [8, 4], 2.0, &[Mark::Curve(&curve), Mark::Word([1.0, 1.0], "h")]);
+        let svg = over(&[1, 2, 3], [8, 4], 2.0, &[Mark::Curve(&curve), Mark::Word([1.0, 1.0], "h", 9.0)]);
         let document = roxmltree::Document::parse(&svg).unwrap();
         assert_eq!(document.root_element().attribute("width"), Some("16"));
     }

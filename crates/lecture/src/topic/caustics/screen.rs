@@ -1,11 +1,13 @@
 //! Slide 23 as a picture: the light of a glass fibre on screens before and behind it.
 
-use core::f64::consts::PI;
-
 use sparrow_math::{Real, Vec3};
+use sparrow_models::cylinder::attenuation::Inside;
+use sparrow_models::cylinder::azimuthal::{TrimmedLogistic, exit_azimuth, wrapped};
+use sparrow_models::cylinder::roughness::logistic_scale;
 use sparrow_plot::draw::table::Table;
+use sparrow_spectra::Spectrum;
 
-use crate::ask::fibre;
+use crate::chart::steps;
 use crate::measure::{peak, smoothed};
 use crate::{Check, Figure, Formula, LectureError, Photo, Picture, Studio};
 
@@ -14,6 +16,8 @@ const FIBRE: Vec3<f64> = Vec3 { x: 0.0, y: -0.06, z: 0.0 };
 /// Inclination of the lamp.
 const THETA_DEG: f64 = 10.0;
 const ETA: f64 = 1.55;
+/// Absorption per radius.
+const SIGMA_A: f64 = 0.05;
 /// Roughness around the fibre, as the scene has it.
 const BETA_N: f64 = 0.05;
 
@@ -41,32 +45,21 @@ fn profile(photo: &Photo) -> Vec<[f64; 2]> {
     smoothed(&classes.iter().enumerate().filter_map(of).collect::<Vec<_>>(), 1)
 }
 
-/// Azimuth of the most light of TRT and R, by following rays: exit azimuths at many offsets, spread by the logistic lobe of the model.
+/// Azimuth in degrees of the most light of TRT: of rays at many offsets, each spread by the lobe of the model.
 fn predicted() -> f64 {
     let (sin, cos) = Real::sin_cos(THETA_DEG.to_radians());
-    let eta = (ETA * ETA - sin * sin).sqrt() / cos;
-    // [Chiang2016]: scale of the logistic lobe.
-    let s = (PI / 8.0).sqrt() * (0.265 * BETA_N + 1.194 * BETA_N * BETA_N);
-    let lobe = |x: f64| {
-        let e = Real::exp(-x.abs() / s);
-        e / (s * (1.0 + e) * (1.0 + e))
-    };
-    let offsets = (0..4000).map(|k| (f64::from(k) + 0.5) / 2000.0 - 1.0);
-    let rays: Vec<[f64; 2]> = offsets
-        .map(|h: f64| {
-            let (gamma_i, gamma_t) = (Real::asin(h), Real::asin(h / eta));
-            let cos_i = (1.0 - h * h).sqrt() * cos;
-            let cos_t = (1.0 - (1.0 - cos_i * cos_i) / (ETA * ETA)).sqrt();
-            let (s, p) = (
-                (cos_i - ETA * cos_t) / (cos_i + ETA * cos_t),
-                (ETA * cos_i - cos_t) / (ETA * cos_i + cos_t),
-            );
-            let f = 0.5 * (s * s + p * p);
-            [4.0 * gamma_t - 2.0 * gamma_i, (1.0 - f) * (1.0 - f) * f]
+    let lobe = TrimmedLogistic::new(logistic_scale(BETA_N));
+    let rays: Vec<[f64; 2]> = (0..4000)
+        .map(|k| (f64::from(k) + 0.5) / 2000.0 - 1.0)
+        .map(|h| {
+            let ray = Inside::new([sin, cos], h, ETA);
+            let share = ray.attenuation(Spectrum::splat(SIGMA_A))[2].average();
+            [exit_azimuth(2, Real::asin(h), ray.angle()), share]
         })
         .collect();
-    let density = |deg: f64| rays.iter().map(|[phi, a]| a * lobe(phi - deg.to_radians())).sum::<f64>();
-    let points: Vec<[f64; 2]> = (0..300).map(|k| f64::from(k) * 0.1).map(|d| [d, density(d)]).collect();
+    let density =
+        |deg: f64| rays.iter().map(|[phi, a]| a * lobe.value(wrapped(deg.to_radians() - phi))).sum::<f64>();
+    let points: Vec<[f64; 2]> = steps(0.0, 30.0, 300).into_iter().map(|d| [d, density(d)]).collect();
     peak(&points).map_or(f64::NAN, |p| p[0])
 }
 
@@ -82,8 +75,6 @@ pub(super) fn make(studio: &Studio<'_>) -> Result<Figure, LectureError> {
     let [at, height] = peak(&profile).unwrap_or([f64::NAN; 2]);
     let middle = profile.first().map_or(f64::NAN, |p| p[1]);
     let outside = profile.last().map_or(f64::NAN, |p| p[1]);
-    // The model that is rendered absorbs a little; its name is asked for so that the figure fails where it is renamed.
-    fibre("hair")?;
     let hair = |eta: f64| {
         format!(
             r#""fibre" "string type" "hair" "rgb sigma_a" [ 0.05 0.05 0.05 ] "float eta" {eta} "float beta_m" {BETA_N} "float beta_n" {BETA_N} "float alpha" 0"#
@@ -96,7 +87,7 @@ pub(super) fn make(studio: &Studio<'_>) -> Result<Figure, LectureError> {
             The roughness of the model blurs the caustic, so that its maximum lies a little inside the caustic angle."
             .to_owned(),
         formulas: vec![
-            Formula::new("φ(2, h) = 4 γ_t - 2 γ_i + 2 π", "[Marschner2003, sec. 5.2]", "lecture/src/topic/caustics/screen.rs: predicted"),
+            Formula::new("φ(2, h) = 4 γ_t - 2 γ_i + 2 π", "[Marschner2003, sec. 5.2]", "models/src/cylinder/azimuthal.rs: exit_azimuth"),
             Formula::new("frac{dφ}{dh} = 0 : h_c^2 = frac{4 - η'^2}{3}", "[Marschner2003, sec. 5.2]", "models/src/cylinder/roots.rs: caustic"),
         ],
         commands: vec![

@@ -74,7 +74,7 @@ fn gallery(
     scene: &str,
     belongs: impl Fn(&ModelKind) -> bool,
 ) -> Result<Figure, LectureError> {
-    let (side, spp) = (studio.pick(24, 96), studio.pick(1, 32));
+    let (side, spp) = (studio.pick(32, 96), studio.pick(4, 32));
     let mut table = Table::new(["model", "setting", "brightness"]);
     let mut figure = Figure {
         caption: "The first picture of each model has the defaults of its table; the others have one parameter at either end of what a slider offers, or at another of its choices. Parameters that \
@@ -109,7 +109,7 @@ fn gallery(
             .map(|(i, (setting, _))| (sheet.corner(i).map(|v| v as f64), setting.as_str()))
             .map(|([x, y], s)| ([x + 2.0 / scale, y + 11.0 / scale], s))
             .collect();
-        let marks: Vec<Mark<'_>> = words.iter().map(|(at, s)| Mark::Word(*at, s)).collect();
+        let marks: Vec<Mark<'_>> = words.iter().map(|(at, s)| Mark::Word(*at, s, 96.0)).collect();
         let svg = over(&sheet.png()?, sheet.size, scale, &marks);
         let alt = format!(
             "{} pictures of a ball of {}, each with another parameter changed.",
