@@ -189,8 +189,7 @@ impl Column<'_> {
         let (mut low, mut high) = ([0; CHUNK], [0; CHUNK]);
         split(&index, &mut low, &mut high);
         let mut v = [0u32; CHUNK];
-        let used = sobol::N_COLUMNS.min(64 - used.leading_zeros() as usize);
-        for j in (0..used).step_by(4) {
+        for j in (0..sobol::N_COLUMNS.min(64 - used.leading_zeros() as usize)).step_by(4) {
             let columns = tables.columns(d, j);
             let bits = if j < 32 { &low } else { &high };
             for (v, bits) in v.iter_mut().zip(bits) {
@@ -204,7 +203,13 @@ impl Column<'_> {
         for v in &mut v {
             *v = v.reverse_bits();
         }
-        scrambled(&v, &[sobol_seed(self.sampler.seed, d); CHUNK])
+        let mut seeds = [sobol_seed(self.sampler.seed, d, 0); CHUNK];
+        if used >> sobol::N_COLUMNS != 0 {
+            for (s, path) in seeds.iter_mut().zip(self.paths) {
+                *s = sobol_seed(self.sampler.seed, d, sobol::turn(path.index));
+            }
+        }
+        scrambled(&v, &seeds)
     }
 }
 

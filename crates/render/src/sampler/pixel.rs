@@ -31,10 +31,10 @@ pub(super) fn key_step(dimension: u32) -> u64 {
     u64::from(dimension).wrapping_add(1).wrapping_mul(GOLDEN)
 }
 
-/// The seed that scrambles a dimension of the global Sobol sequence.
+/// The seed that scrambles a dimension of the global Sobol sequence on its `turn`-th way through.
 #[inline(always)]
-pub(super) fn sobol_seed(seed: u64, dimension: u32) -> u32 {
-    join(seed, u64::from(dimension)) as u32
+pub(super) fn sobol_seed(seed: u64, dimension: u32, turn: u32) -> u32 {
+    join(seed, u64::from(dimension) | (u64::from(turn) << 32)) as u32
 }
 
 /// Tables of the kinds, built once.
@@ -279,7 +279,7 @@ impl<'a> PixelSampler<'a> {
     #[inline]
     fn sobol_value(&self, tables: &SobolTables, d: u32) -> f32 {
         let v = tables.value(self.index, d + PLANE);
-        let seed = sobol_seed(self.sampler.seed, d + PLANE);
+        let seed = sobol_seed(self.sampler.seed, d + PLANE, sobol::turn(self.index));
         to_unit(randomize(v.reverse_bits(), seed, self.sampler.config.randomize).reverse_bits())
     }
 
@@ -289,7 +289,7 @@ impl<'a> PixelSampler<'a> {
     /// here, so its pixel positions do not follow the seed.
     #[inline]
     fn below_pixel(&self, v: u32, axis: u32, log2_side: u32, how: Randomize) -> f32 {
-        let seed = sobol_seed(self.sampler.seed, axis);
+        let seed = sobol_seed(self.sampler.seed, axis, sobol::turn(self.index));
         to_unit(randomize(v.reverse_bits(), seed, how).reverse_bits() << log2_side)
     }
 

@@ -61,6 +61,13 @@ fn nibble_table(d: usize) -> Matrix {
     m
 }
 
+/// How often an index has passed the end of the sequence: wide images leave fewer than 2^32 points to a pixel, and what comes
+/// after them is scrambled anew.
+#[inline(always)]
+pub(crate) fn turn(index: u64) -> u32 {
+    (index >> N_COLUMNS) as u32
+}
+
 impl SobolTables {
     /// Tables for an image of this size.
     pub(crate) fn new(resolution: [u32; 2]) -> SobolTables {

@@ -361,3 +361,26 @@ fn columns_equal_single_numbers() {
         }
     }
 }
+
+#[test]
+fn the_sobol_sequence_goes_on_beyond_its_last_column() {
+    let config = SamplerConfig {
+        kind: SamplerKind::Sobol,
+        randomize: Randomize::FastOwen,
+        samples_per_pixel: 64,
+        seed: 3,
+        resolution: [65_536, 10],
+    };
+    let s = Sampler::new(&config);
+    // 2^52 points, 2^32 pixels: after 2^20 samples the columns begin again.
+    let numbers = |first: u32| {
+        let start = |i| s.start([30_000, 7], first + i);
+        let paths: Vec<PixelSampler<'_>> = (0..64).map(start).collect();
+        let (mut x, mut y) = ([0.0; 64], [0.0; 64]);
+        s.fill_2d(&paths, 8, [&mut x, &mut y]);
+        assert_eq!([x[9], y[9]], paths[9].at(8).get_2d());
+        (x, y, paths[5].at(0).get_pixel_2d())
+    };
+    let (a, b) = (numbers(0), numbers(1 << 20));
+    assert!(a.2 != b.2 && a.0.iter().zip(&b.0).all(|(a, b)| a != b), "samples repeat");
+}
