@@ -10,6 +10,7 @@ use sparrow_scene::{AreaLightId, Emission, LightDesc, LightKind, LightSamplerNam
 use sparrow_spectra::{ColorSpace, DenseSpectrum, photometric};
 
 use super::bounds::{Cone, LightBounds};
+use super::portal::Portal;
 use super::{Environment, Light, LightSelection, Lights, NO_LIGHT};
 use crate::spectrum::light_spectrum;
 use crate::texture::to_equal_area;
@@ -157,8 +158,14 @@ impl LightBuild<'_> {
                 let scale = with_power(radiance.scale, *illuminance, core::f32::consts::PI);
                 let strength = out.brightness(emission) * scale * four_pi * disk;
                 out.infinite.push(out.lights.len() as u32);
+                let portal = light.portal.and_then(|p| Portal::new(p, 32, |_| 1.0)).map(Box::new);
                 out.push(
-                    Light::Uniform { emission, scale, left_to_bsdf: self.compensate },
+                    Light::Uniform {
+                        emission,
+                        scale,
+                        left_to_bsdf: self.compensate && portal.is_none(),
+                        portal,
+                    },
                     strength,
                     Aabb::EMPTY,
                     Cone::ALL,
@@ -167,7 +174,7 @@ impl LightBuild<'_> {
             LightKind::InfiniteImage { path, scale, illuminance, color_space } => {
                 let image =
                     EnvironmentImage { path, scale: *scale, illuminance: *illuminance, space: *color_space };
-                let env = image.load(&light.to_world, self.compensate)?;
+                let env = image.load(&light.to_world, self.compensate)?.through(light.portal);
                 out.infinite.push(out.lights.len() as u32);
                 let strength = env.mean() * four_pi * disk;
                 out.push(Light::Environment(Box::new(env)), strength, Aabb::EMPTY, Cone::ALL);
