@@ -1,9 +1,9 @@
 //! Images and meshes of our own scenes, made by formula: small, and the same on every machine.
 
-mod bulbs;
 mod cloth;
 mod grid;
 mod herbert;
+mod market;
 mod textures;
 mod vase;
 
@@ -38,7 +38,7 @@ pub fn write(scenes: &Path) -> Result<String, String> {
 /// Meshes as PLY text, by name.
 fn meshes() -> Vec<(String, String)> {
     let bodies = [("cloth", cloth::ply()), ("herbert", herbert::ply()), ("vase", vase::ply())];
-    bodies.map(|(name, text)| (name.to_owned(), text)).into_iter().chain(bulbs::all()).collect()
+    bodies.map(|(name, text)| (name.to_owned(), text)).into_iter().chain(market::all()).collect()
 }
 
 /// A colour of a square image at column `x`, row `y` from the top: sRGB codes.
