@@ -6,7 +6,6 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::Instant;
 
 use rayon::prelude::*;
-use sparrow_spectra::Wavelengths;
 
 use crate::film::{Film, FilmTile};
 use crate::integrator::RayCounts;
@@ -186,7 +185,7 @@ impl<'a> Run<'a> {
         let plan = self.plan;
         let [x, y] = [pixel[0] + plan.bounds[0], pixel[1] + plan.bounds[2]];
         let mut sampler = sampler.start([x, y], sample);
-        let mut lambda = Wavelengths::sample_visible(sampler.get_1d());
+        let mut lambda = plan.sensor.wavelengths(sampler.get_1d());
         let time = if self.scene.moves { self.scene.camera.time(sampler.get_1d()) } else { 0.0 };
         let f = plan.filter.sample(sampler.get_pixel_2d());
         sampler.set_dimension(2);

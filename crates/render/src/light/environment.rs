@@ -6,10 +6,25 @@ use sparrow_math::{Transform, Vec3, warp};
 use sparrow_spectra::{ColorSpace, DenseSpectrum, Spectrum, Wavelengths, rgb_to_sigmoid};
 
 use super::portal::Portal;
+use crate::colour::four;
 use crate::distribution::{Draw2, Piecewise2};
 
 /// Cells along a side of a portal's view of a map: 8 MiB.
 const MOST_PORTAL_CELLS: usize = 1024;
+
+/// What the pixels of an environment map stand for.
+#[derive(Debug)]
+pub enum EnvironmentColour {
+    /// Spectra: RGB of that space, lit by its illuminant, which is brought to unit luminance.
+    Spectral {
+        /// The space of the pixels.
+        space: ColorSpace,
+        /// Its illuminant.
+        illuminant: DenseSpectrum,
+    },
+    /// The channels that paths carry.
+    Rgb,
+}
 
 /// An environment map in pbrt-v4's square equal-area layout, looked up at the nearest pixel.
 #[derive(Debug)]
@@ -18,9 +33,7 @@ pub struct Environment {
     /// Linear RGB, row by row.
     rgb: Vec<[f32; 3]>,
     scale: f32,
-    space: ColorSpace,
-    /// The colour space's illuminant, brought to unit luminance.
-    illuminant: DenseSpectrum,
+    colour: EnvironmentColour,
     density: Piecewise2,
     /// The opening through which it is sampled.
     portal: Option<Box<Portal>>,
@@ -37,8 +50,7 @@ impl Environment {
         n: usize,
         rgb: Vec<[f32; 3]>,
         scale: f32,
-        space: ColorSpace,
-        illuminant: DenseSpectrum,
+        colour: EnvironmentColour,
         to_world: &Transform,
         compensate: bool,
     ) -> Environment {
@@ -57,8 +69,7 @@ impl Environment {
             n,
             rgb,
             scale,
-            space,
-            illuminant,
+            colour,
             density: Piecewise2::new(&brightness, n, n),
             portal: None,
             axes: e.map(|(x, y, z)| axis(sparrow_math::vec3(x, y, z))),
@@ -108,12 +119,15 @@ impl Environment {
     /// Radiance from a direction.
     pub fn radiance(&self, wi: Vec3<f32>, w: &Wavelengths) -> Spectrum<f32> {
         let rgb = self.pixel(wi);
+        let EnvironmentColour::Spectral { space, illuminant } = &self.colour else {
+            return Spectrum(four(rgb)) * self.scale;
+        };
         let m = 2.0 * rgb[0].max(rgb[1]).max(rgb[2]);
         if !(m > 0.0) {
             return Spectrum::ZERO;
         }
-        let s = rgb_to_sigmoid(rgb.map(|c| (c / m).max(0.0)), self.space);
-        s.at(w) * self.illuminant.at(w) * (m * self.scale)
+        let s = rgb_to_sigmoid(rgb.map(|c| (c / m).max(0.0)), *space);
+        s.at(w) * illuminant.at(w) * (m * self.scale)
     }
 
     /// Mean of the image times the scale: for estimates of power.

@@ -13,12 +13,14 @@ mod tree;
 
 use sparrow_geometry::{Geometry, ShapeSample, SurfacePoint, Viewpoint};
 use sparrow_math::{Real, Transform, Vec3};
-use sparrow_spectra::{DenseSpectrum, Spectrum, Wavelengths};
+use sparrow_spectra::{Spectrum, Wavelengths};
+
+use crate::spectrum::SceneSpectrum;
 
 use portal::Portal;
 
 pub use build::LightBuild;
-pub use environment::Environment;
+pub use environment::{Environment, EnvironmentColour};
 pub use selection::LightSelection;
 
 /// Marks shapes that emit nothing.
@@ -135,7 +137,7 @@ impl LitPoint {
 #[derive(Debug)]
 pub struct Lights {
     lights: Vec<Light>,
-    emissions: Vec<DenseSpectrum>,
+    emissions: Vec<SceneSpectrum>,
     /// First light of each shape, or [`NO_LIGHT`].
     first_of_shape: Vec<u32>,
     /// Lights that rays meet where they leave the scene.
