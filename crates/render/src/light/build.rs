@@ -6,6 +6,7 @@ use std::path::Path;
 use sparrow_geometry::{Geometry, ShapeSample};
 use sparrow_image::Image;
 use sparrow_math::{Aabb, Frame, Real, Transform, Vec3, vec3};
+use sparrow_mis::Mis;
 use sparrow_scene::{AreaLightId, Emission, LightDesc, LightKind, LightSamplerName, SceneDesc};
 use sparrow_spectra::{ColorSpace, photometric};
 
@@ -79,6 +80,11 @@ impl LightBuild<'_> {
             LightSamplerName::Power => LightSelection::fixed(&powers()),
             LightSamplerName::Bvh => LightSelection::by_place(&parts.bounds, &usable),
         }
+    }
+
+    /// The corners of a light's portal. Where light sampling is alone it has to find what does not come through it too.
+    fn portal(&self, light: &LightDesc) -> Option<[Vec3<f64>; 4]> {
+        light.portal.filter(|_| self.desc.integrator.mis != Mis::LightOnly)
     }
 
     /// One light per primitive of an emitting shape.
@@ -160,7 +166,7 @@ impl LightBuild<'_> {
                 let scale = with_power(radiance.scale, *illuminance, core::f32::consts::PI);
                 let strength = out.brightness(emission) * scale * four_pi * disk;
                 out.infinite.push(out.lights.len() as u32);
-                let portal = light.portal.and_then(|p| Portal::new(p, 32, |_| 1.0)).map(Box::new);
+                let portal = self.portal(light).and_then(|p| Portal::new(p, 32, |_| 1.0)).map(Box::new);
                 out.push(
                     Light::Uniform {
                         emission,
@@ -176,7 +182,8 @@ impl LightBuild<'_> {
             LightKind::InfiniteImage { path, scale, illuminance, color_space } => {
                 let image =
                     EnvironmentImage { path, scale: *scale, illuminance: *illuminance, space: *color_space };
-                let env = image.load(&light.to_world, self.compensate, out.carrier)?.through(light.portal);
+                let env =
+                    image.load(&light.to_world, self.compensate, out.carrier)?.through(self.portal(light));
                 out.infinite.push(out.lights.len() as u32);
                 let strength = env.mean() * four_pi * disk;
                 out.push(Light::Environment(Box::new(env)), strength, Aabb::EMPTY, Cone::ALL);

@@ -80,7 +80,7 @@ fn many_lights() -> String {
         let (sin, cos) = Real::sin_cos(0.7 * t);
         let r = 0.9 + 0.02 * t;
         let (x, y, z) = (r * cos, r * sin, 0.15 + 0.025 * t);
-        let (a, b) = (0.02 + 0.08 * (0.618 * t).fract(), 0.1 * Real::sin(2.3 * t));
+        let (a, b) = (0.2 + 0.1 * (0.618 * t).fract(), 0.15 * Real::sin(2.3 * t));
         points += &format!("{x} {y} {z} {} {} {} {} {} {} ", x + a, y + b, z, x - b, y + a, z + 2.0 * b);
         indices += &format!("{} {} {} ", 3 * i, 3 * i + 1, 3 * i + 2);
     }
@@ -88,7 +88,7 @@ fn many_lights() -> String {
         r#"LightSource "infinite" "rgb L" [ 0.1 0.12 0.15 ]
     LightSource "point" "rgb I" [ 0.5 0.4 0.3 ] "point3 from" [ -2 -1 1.5 ]
     LightSource "spot" "rgb I" [ 9 9 9 ] "point3 from" [ 2 -2 3 ] "point3 to" [ 0 0 0.5 ] "float coneangle" 15 "float conedeltaangle" 6
-    AttributeBegin AreaLightSource "diffuse" "rgb L" [ 30 25 20 ]
+    AttributeBegin AreaLightSource "diffuse" "rgb L" [ 3 2.5 2 ]
     Shape "trianglemesh" "point3 P" [ {points} ] "integer indices" [ {indices} ] AttributeEnd"#
     )
 }
