@@ -99,7 +99,7 @@ mod tests {
             vec3(r * Real::cos(phi), r * Real::sin(phi), z)
         };
         for i in 0..200u32 {
-            let two_sided = i % 3 == 0;
+            let two_sided = i.is_multiple_of(3);
             let cone = |k: u32| Cone {
                 axis: unit(k),
                 normals: f64::from(k % 7) * 0.2,

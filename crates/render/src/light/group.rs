@@ -7,6 +7,9 @@ use super::bounds::LightBounds;
 /// Parts of an axis between which a group may be split.
 const N_BUCKETS: usize = 12;
 
+/// A light by its index.
+type Listed = (u32, LightBounds);
+
 /// One light, or two groups.
 pub(super) struct Grouped {
     pub(super) bounds: LightBounds,
@@ -19,7 +22,7 @@ pub(super) struct Grouped {
 
 /// Groups lights, splitting where the surface area orientation heuristic is least; none where there are none.
 /// [ContyKulla2018, section 4.4]
-pub(super) fn group(lights: &[(u32, LightBounds)]) -> Option<Grouped> {
+pub(super) fn group(lights: &[Listed]) -> Option<Grouped> {
     if let [(light, bounds)] = lights {
         return Some(Grouped { bounds: *bounds, cost: bounds.cost(), light: *light, parts: None });
     }
@@ -78,7 +81,7 @@ fn component(v: Vec3<f32>, axis: usize) -> f32 {
 }
 
 /// Two groups of at least two lights; neither is empty.
-fn split(lights: &[(u32, LightBounds)]) -> (Vec<(u32, LightBounds)>, Vec<(u32, LightBounds)>) {
+fn split(lights: &[Listed]) -> (Vec<Listed>, Vec<Listed>) {
     let centers = lights.iter().fold(Aabb::EMPTY, |b, l| b.grow(l.1.bounds.center()));
     let extent = centers.extent();
     let bucket_of = |l: &LightBounds, axis: usize| {

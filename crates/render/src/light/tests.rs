@@ -42,7 +42,7 @@ fn lamps(count: usize) -> (Vec<Lamp>, Vec<LightBounds>) {
         }
         let (a, b, c) = (home + r.point(0.3), home + r.point(0.3), home + r.point(0.3));
         let n = (b - a).cross(c - a).normalized();
-        Lamp { corners: [a, b, c], n, two_sided: i % 5 == 0 }
+        Lamp { corners: [a, b, c], n, two_sided: i.is_multiple_of(5) }
     };
     let lamps: Vec<Lamp> = (0..count).map(lamp).collect();
     let mut r = Numbers(6);
