@@ -114,8 +114,8 @@ impl Scene {
         };
         let Some(point) = hit else {
             return self.lights.infinite().iter().fold(Spectrum::ZERO, |sum, &light| {
-                let (l, pdf) = self.lights.escaped(light, ray.d, w);
-                sum + weighted(l, light, &|_| pdf)
+                let l = self.lights.escaped(light, ray.d, w);
+                sum + weighted(l, light, &|at| self.lights.pdf_of_escape(light, at, ray.d))
             });
         };
         let Some(light) = self.lights.of_primitive(point.shape, point.prim) else { return Spectrum::ZERO };
@@ -123,7 +123,7 @@ impl Scene {
         if l.is_black() {
             return l;
         }
-        weighted(l, light, &|at| self.lights.pdf_of_point(&self.geometry, at, ray.d, point))
+        weighted(l, light, &|at| self.lights.pdf_of_point(&self.geometry, at, point))
     }
 
     /// The reflection model at a point, turned to the world; none where rays pass unchanged.

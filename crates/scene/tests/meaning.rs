@@ -387,6 +387,21 @@ fn lights_carry_the_numbers_of_the_file() {
 }
 
 #[test]
+fn a_portal_is_a_rectangle_in_world_space() {
+    let s = scene(
+        "WorldBegin Translate 5 0 0 LightSource \"infinite\" \"point3 portal\" [ 0 0 0  0 2 0  1 2 0  1 0 0 ] LightSource \"infinite\"",
+    );
+    let Some([p0, p1, p2, p3]) = s.lights[0].portal else { panic!() };
+    assert!(
+        near(p0, [0.0; 3])
+            && near(p1, [0.0, 2.0, 0.0])
+            && near(p2, [1.0, 2.0, 0.0])
+            && near(p3, [1.0, 0.0, 0.0])
+    );
+    assert!(s.lights[1].portal.is_none());
+}
+
+#[test]
 fn area_lights_are_shared_by_the_shapes_behind_them() {
     let s = scene(
         "WorldBegin AreaLightSource \"diffuse\" \"rgb L\" [1 2 3] \"bool twosided\" \"true\" Shape \"sphere\" \
