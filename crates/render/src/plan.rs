@@ -1,6 +1,6 @@
 //! How a picture is taken of a scene: everything a render needs beside the scene itself.
 
-use sparrow_scene::{FilterDesc, RandomizeName, SamplerDesc, SamplerName, SceneDesc};
+use sparrow_scene::{FilterDesc, IntegratorName, RandomizeName, SamplerDesc, SamplerName, SceneDesc};
 use sparrow_spectra::{Sensor, Spectrum, Wavelengths};
 
 use crate::filter::{Filter, FilterSampler};
@@ -17,6 +17,8 @@ pub struct RenderPlan {
     pub sensor: FilmSensor,
     /// Light transport.
     pub integrator: PathIntegrator,
+    /// Paths are followed one by one, by the loop that is the reference; to the same bits.
+    pub one_by_one: bool,
     /// The part of the picture that is rendered: `x0 x1 y0 y1`, ends excluded.
     pub bounds: [u32; 4],
     /// Samples per pixel.
@@ -66,6 +68,7 @@ impl RenderPlan {
                 max_component: film.max_component_value,
             },
             integrator: PathIntegrator::new(&desc.integrator),
+            one_by_one: desc.integrator.name == IntegratorName::Reference,
             bounds: film.pixel_bounds,
             samples_per_pixel: sampler.samples_per_pixel(),
             sampler,

@@ -6,11 +6,10 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::Instant;
 
 use rayon::prelude::*;
-use sparrow_spectra::Wavelengths;
 
-use crate::film::{Film, FilmTile};
-use crate::integrator::RayCounts;
-use crate::observe::{Observer, Sample, TileObserver};
+use crate::film::Film;
+use crate::integrator::{Block, CameraSample, Exposed, RayCounts};
+use crate::observe::{Observer, TileObserver};
 use crate::plan::RenderPlan;
 use crate::render::{Progress, RenderError, RenderOptions, RenderStats};
 use crate::sampler::Sampler;
@@ -120,15 +119,19 @@ impl<'a> Run<'a> {
     }
 
     /// Works off all jobs; false where the render was stopped within them.
-    pub(crate) fn pass<O: Observer>(&self, jobs: &[Job<'_, O>]) -> Result<bool, RenderError> {
+    pub(crate) fn pass<'j, O: Observer>(&self, jobs: &[Job<'j, O>]) -> Result<bool, RenderError> {
         let whole = AtomicBool::new(true);
+        let blocks = Mutex::new(Vec::new());
         self.pool.install(|| {
             jobs.par_iter().try_for_each(|job| {
                 if self.ended() {
                     whole.store(false, Ordering::Relaxed);
                     return Ok(());
                 }
-                self.tile(job)
+                let mut block = lock(&blocks).pop().unwrap_or_else(|| Box::new(Block::default()));
+                let done = self.tile(job, &mut block);
+                lock(&blocks).push(block);
+                done
             })
         })?;
         Ok(whole.into_inner())
@@ -144,21 +147,45 @@ impl<'a> Run<'a> {
         }
     }
 
-    fn tile<O: Observer>(&self, job: &Job<'_, O>) -> Result<(), RenderError> {
-        let Job { exposure, origin, samples } = job;
-        let mut tile = exposure.film().tile(*origin, [TILE, TILE]);
-        let mut observer = exposure.observer.tile(*origin, [TILE, TILE]);
+    /// Paths one after the other, by the readable loop.
+    fn one_by_one<'b, T: TileObserver>(
+        &self,
+        starts: impl Iterator<Item = CameraSample<'b>>,
+        tile: &mut Exposed<'_, T>,
+    ) -> RayCounts {
         let mut rays = RayCounts::default();
-        let [w, h] = tile.size();
-        for y in origin[1]..origin[1] + h {
-            for x in origin[0]..origin[0] + w {
-                for sample in samples.clone() {
-                    self.sample(exposure.sampler, [x, y], sample, &mut tile, &mut observer, &mut rays);
-                }
-            }
+        for CameraSample { place, mut sampler, mut lambda, ray } in starts {
+            let mut record = T::Record::default();
+            let integrator = &self.plan.integrator;
+            let l = integrator.radiance(self.scene, ray, &mut lambda, &mut sampler, &mut rays, &mut record);
+            rays.camera += 1;
+            rays.scattered -= 1;
+            tile.take(place, l, &lambda, &record);
         }
-        exposure.film().absorb(&tile)?;
-        exposure.observer.absorb(&observer)?;
+        rays
+    }
+
+    fn tile<'j, O: Observer>(
+        &self,
+        job: &Job<'j, O>,
+        block: &mut Block<'j, <O::Tile as TileObserver>::Record>,
+    ) -> Result<(), RenderError> {
+        let Job { exposure, origin, samples } = job;
+        let film = exposure.film().tile(*origin, [TILE, TILE]);
+        let observer = exposure.observer.tile(*origin, [TILE, TILE]);
+        let [w, h] = film.size();
+        let mut tile = Exposed { plan: self.plan, film, observer };
+        let pixels = (origin[1]..origin[1] + h).flat_map(|y| (origin[0]..origin[0] + w).map(move |x| [x, y]));
+        let starts = pixels.flat_map(|pixel| samples.clone().map(move |sample| (pixel, sample)));
+        let mut starts = starts
+            .map(|(pixel, sample)| CameraSample::new(self.scene, self.plan, exposure.sampler, pixel, sample));
+        let rays = if self.plan.one_by_one {
+            self.one_by_one(starts, &mut tile)
+        } else {
+            block.render(self.scene, &mut starts, &mut tile)
+        };
+        exposure.film().absorb(&tile.film)?;
+        exposure.observer.absorb(&tile.observer)?;
         *lock(&self.rays) += rays;
         let n = u64::from(w) * u64::from(h) * u64::from(samples.end - samples.start);
         let n_samples = self.samples.fetch_add(n, Ordering::Relaxed) + n;
@@ -170,36 +197,6 @@ impl<'a> Run<'a> {
             elapsed: self.start.elapsed(),
         });
         Ok(())
-    }
-
-    /// One camera sample: wavelengths, time, place on film and lens, radiance, film.
-    #[inline]
-    fn sample<T: TileObserver>(
-        &self,
-        sampler: &Sampler,
-        pixel: [u32; 2],
-        sample: u32,
-        tile: &mut FilmTile,
-        observer: &mut T,
-        rays: &mut RayCounts,
-    ) {
-        let plan = self.plan;
-        let [x, y] = [pixel[0] + plan.bounds[0], pixel[1] + plan.bounds[2]];
-        let mut sampler = sampler.start([x, y], sample);
-        let mut lambda = Wavelengths::sample_visible(sampler.get_1d());
-        let time = if self.scene.moves { self.scene.camera.time(sampler.get_1d()) } else { 0.0 };
-        let f = plan.filter.sample(sampler.get_pixel_2d());
-        sampler.set_dimension(2);
-        let lens = sampler.get_2d();
-        let film = [x as f32 + 0.5 + f.offset[0], y as f32 + 0.5 + f.offset[1]];
-        let ray = self.scene.camera.ray(film, lens, time);
-        let mut record = T::Record::default();
-        let l = plan.integrator.radiance(self.scene, ray, &mut lambda, &mut sampler, rays, &mut record);
-        rays.camera += 1;
-        rays.scattered -= 1;
-        let sample = Sample { pixel, rgb: plan.sensor.rgb(l, &lambda), weight: f.weight };
-        let rgb = observer.take(sample, &record, |part| plan.sensor.rgb(part, &lambda));
-        tile.add(pixel[0], pixel[1], rgb, f.weight);
     }
 }
 

@@ -18,7 +18,7 @@ use mapping::TexCoord;
 use crate::spectrum::SceneSpectrum;
 
 /// Where a texture is evaluated.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct TextureContext {
     /// Point, in world space.
     pub(crate) p: Vec3<f32>,
