@@ -74,6 +74,10 @@ pub(crate) struct RenderArgs {
     #[arg(long, value_name = "NAME")]
     pub(crate) integrator: Option<Integrator>,
 
+    /// What paths carry [default: the scene's `Option "colour"`, spectral where it names none]
+    #[arg(long, alias = "color", value_name = "NAME")]
+    pub(crate) colour: Option<Colour>,
+
     /// Most scattering events of a path [default: the scene's, 5 where it names none]
     #[arg(long, value_name = "N")]
     pub(crate) max_depth: Option<u32>,
@@ -222,6 +226,15 @@ pub(crate) enum Integrator {
     Reference,
     /// One bounce of light, and specular chains
     Directlighting,
+}
+
+/// Names of colour modes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Colour {
+    /// Values at wavelengths: what light does
+    Spectral,
+    /// Red, green and blue of the film's colour space: quicker, less noisy, colours approximate
+    Rgb,
 }
 
 /// Names of light samplers.

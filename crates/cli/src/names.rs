@@ -1,6 +1,8 @@
 //! The names of things in scene files, for reports.
 
-use sparrow_scene::{FilterDesc, IntegratorName, LightSamplerName, Projection, RandomizeName, SamplerName};
+use sparrow_scene::{
+    ColourMode, FilterDesc, IntegratorName, LightSamplerName, Projection, RandomizeName, SamplerName,
+};
 
 pub(crate) fn sampler(name: SamplerName) -> &'static str {
     match name {
@@ -36,6 +38,13 @@ pub(crate) fn light_sampler(name: LightSamplerName) -> &'static str {
         LightSamplerName::Uniform => "uniform",
         LightSamplerName::Power => "power",
         LightSamplerName::Bvh => "bvh",
+    }
+}
+
+pub(crate) fn colour(mode: ColourMode) -> &'static str {
+    match mode {
+        ColourMode::Spectral => "spectral",
+        ColourMode::Rgb => "rgb",
     }
 }
 

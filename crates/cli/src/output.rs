@@ -174,6 +174,7 @@ fn attributes(stats: &Stats, camera: &Camera) -> Vec<(String, Attribute)> {
         ("maxDepth", whole(stats.max_depth)),
         ("mis", text(&stats.mis)),
         ("lightSampler", text(stats.light_sampler)),
+        ("colourMode", text(stats.colour)),
         ("sampler", text(stats.sampler)),
         ("cameraToWorld", Attribute::Matrix(camera.to_world().rows().map(|row| row.map(|v| v as f32)))),
     ];

@@ -1,8 +1,8 @@
 //! What the command line changes in a scene, before anything is built from it.
 
-use sparrow_scene::{IntegratorName, LightSamplerName, SamplerName, SceneDesc};
+use sparrow_scene::{ColourMode, IntegratorName, LightSamplerName, SamplerName, SceneDesc};
 
-use crate::args::{Crop, Integrator, LightSampler, MAX_SPP, RenderArgs};
+use crate::args::{Colour, Crop, Integrator, LightSampler, MAX_SPP, RenderArgs};
 
 /// Applies the options to the description.
 pub(crate) fn apply(args: &RenderArgs, desc: &mut SceneDesc) {
@@ -20,6 +20,11 @@ pub(crate) fn apply(args: &RenderArgs, desc: &mut SceneDesc) {
     if let Some(seed) = args.seed {
         desc.seed = seed;
         desc.sampler.seed = None;
+    }
+    match args.colour {
+        Some(Colour::Spectral) => desc.film.colour = ColourMode::Spectral,
+        Some(Colour::Rgb) => desc.film.colour = ColourMode::Rgb,
+        None => {}
     }
     let integrator = &mut desc.integrator;
     match args.integrator {
@@ -137,7 +142,7 @@ mod tests {
         assert_eq!(untouched.integrator.max_depth, 9);
         let desc = after(
             scene,
-            "--spp 24 --seed 7 --max-depth 0 --integrator directlighting --mis power:1.5 --lightsampler power \
+            "--spp 24 --seed 7 --colour rgb --max-depth 0 --integrator directlighting --mis power:1.5 --lightsampler power \
              --mis-compensation off --half=off",
         );
         assert_eq!((desc.sampler.strata, desc.sampler.samples_per_pixel), ([6, 4], 24));
@@ -149,6 +154,7 @@ mod tests {
         );
         assert_eq!((i.light_sampler, i.mis_compensation), (LightSamplerName::Power, false));
         assert!(!desc.film.save_fp16);
+        assert_eq!((untouched.film.colour, desc.film.colour), (ColourMode::Spectral, ColourMode::Rgb));
         assert_eq!(after(scene, "--time 1").sampler.samples_per_pixel, MAX_SPP);
         assert_eq!(after(scene, "--noise 0.1").sampler.samples_per_pixel, MAX_SPP);
         assert_eq!(after(scene, "--time 1 --spp 4").sampler.samples_per_pixel, 4);

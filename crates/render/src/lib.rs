@@ -10,6 +10,7 @@
 
 pub mod adaptive;
 pub mod camera;
+mod colour;
 pub mod compile;
 pub mod distribution;
 pub mod film;

@@ -6,6 +6,7 @@ use sparrow_models::{MAX_CHOICES, MAX_REALS, MAX_SPECTRA, ModelKind, ParamBlock,
 use sparrow_scene::{FloatTextureId, MaterialDesc, RealParam, SceneDesc, SpectrumParam, SpectrumTextureId};
 use sparrow_spectra::{DenseSpectrum, RgbRole, Spectrum, Wavelengths};
 
+use crate::colour::Carrier;
 use crate::scatter::LocalModel;
 use crate::spectrum::SceneSpectrum;
 use crate::texture::{TextureContext, Textures};
@@ -13,6 +14,9 @@ use crate::texture::{TextureContext, Textures};
 mod columns;
 
 pub(crate) use columns::{MaterialColumns, Points};
+
+/// Fraunhofer's d line, at which indices of refraction are given, in nm.
+const HELIUM_D: f32 = 587.6;
 
 #[derive(Clone, Debug)]
 enum RealSource {
@@ -75,7 +79,8 @@ impl Material {
         faults: &mut Vec<String>,
     ) -> Option<Material> {
         let kind = desc.model?;
-        let reals: Vec<RealSource> = desc.reals.iter().map(|r| real_source(r, textures)).collect();
+        let carrier = Carrier::new(&scene.film);
+        let reals: Vec<RealSource> = desc.reals.iter().map(|r| real_source(r, textures, carrier)).collect();
         let is_spectral = |k: ParamKind| matches!(k, ParamKind::Albedo | ParamKind::Unbounded);
         let spectral = kind.params().iter().filter(|p| is_spectral(p.kind));
         let spectra: Vec<SpectrumSource> = spectral
@@ -127,7 +132,7 @@ fn k_of_reflectance(r: f32) -> f32 {
     2.0 * r.sqrt() / (1.0 - r).sqrt()
 }
 
-fn real_source(param: &RealParam, textures: &Textures) -> RealSource {
+fn real_source(param: &RealParam, textures: &Textures, carrier: Carrier) -> RealSource {
     match param {
         RealParam::Texture(id) => match textures.constant_float(*id) {
             Some(v) => RealSource::Constant(v),
@@ -138,7 +143,12 @@ fn real_source(param: &RealParam, textures: &Textures) -> RealSource {
             None => RealSource::SqrtOfTexture(*id),
         },
         RealParam::Dispersive(s) => {
-            RealSource::AtHero(Arc::new(SceneSpectrum::new(s, RgbRole::Unbounded).to_dense()))
+            let table = SceneSpectrum::new(s, RgbRole::Unbounded).to_dense();
+            match carrier {
+                Carrier::Wavelengths => RealSource::AtHero(Arc::new(table)),
+                // Three channels cannot be bent apart: all take the index of the yellow helium line.
+                Carrier::Rgb(_) => RealSource::Constant(table.value(HELIUM_D)),
+            }
         }
     }
 }
@@ -162,10 +172,7 @@ fn spectrum_source(
         SpectrumParam::ReflectanceToK(id) => {
             let id = textures.spectrum(scene, *id, RgbRole::Albedo, faults);
             match textures.constant_spectrum(id) {
-                Some(s) => {
-                    let dense = s.to_dense().map(k_of_reflectance);
-                    SpectrumSource::Value(SceneSpectrum::Dense(Arc::new(dense)))
-                }
+                Some(s) => SpectrumSource::Value(s.map(k_of_reflectance)),
                 None => SpectrumSource::KOfTexture(id),
             }
         }
@@ -175,9 +182,9 @@ fn spectrum_source(
 /// Reflectances above one would make light: tables are clamped, as pbrt-v4 clamps them.
 fn within(kind: ParamKind, s: SceneSpectrum) -> SceneSpectrum {
     match (kind, s) {
-        (ParamKind::Albedo, SceneSpectrum::Constant(v)) => SceneSpectrum::Constant(v.clamp(0.0, 1.0)),
-        (ParamKind::Albedo, SceneSpectrum::Dense(d)) => {
-            SceneSpectrum::Dense(Arc::new(d.map(|v| v.clamp(0.0, 1.0))))
+        // What stands for RGB lies within by its making.
+        (ParamKind::Albedo, s @ (SceneSpectrum::Constant(_) | SceneSpectrum::Dense(_))) => {
+            s.map(|v| v.clamp(0.0, 1.0))
         }
         (_, s) => s,
     }

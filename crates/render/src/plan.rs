@@ -3,6 +3,7 @@
 use sparrow_scene::{FilterDesc, IntegratorName, RandomizeName, SamplerDesc, SamplerName, SceneDesc};
 use sparrow_spectra::{Sensor, Spectrum, Wavelengths};
 
+use crate::colour::Carrier;
 use crate::filter::{Filter, FilterSampler};
 use crate::integrator::PathIntegrator;
 use crate::sampler::{Randomize, Sampler, SamplerConfig, SamplerKind};
@@ -13,7 +14,7 @@ pub struct RenderPlan {
     pub sampler: Sampler,
     /// Pixel filter.
     pub filter: FilterSampler,
-    /// Spectra to RGB.
+    /// What paths carry, to RGB.
     pub sensor: FilmSensor,
     /// Light transport.
     pub integrator: PathIntegrator,
@@ -25,19 +26,38 @@ pub struct RenderPlan {
     pub samples_per_pixel: u32,
 }
 
+/// How what a path carries is measured.
+#[derive(Clone, Debug)]
+enum Response {
+    /// By the sensor's sensitivity to each wavelength.
+    Spectral(Box<Sensor>),
+    /// As the CIE's observer sees RGB: by the matrix to XYZ, with the exposure.
+    Rgb([[f32; 3]; 3]),
+}
+
 /// The sensor with what follows it: the clamp of single samples and the way to output RGB.
 #[derive(Clone, Debug)]
 pub struct FilmSensor {
-    sensor: Sensor,
+    carrier: Carrier,
+    response: Response,
     to_output: [[f32; 3]; 3],
     max_component: f32,
 }
 
 impl FilmSensor {
+    /// The wavelengths of a path, from a uniform number.
+    #[inline]
+    pub fn wavelengths(&self, u: f32) -> Wavelengths {
+        self.carrier.wavelengths(u)
+    }
+
     /// Linear RGB of the output colour space, for one sample.
     #[inline]
     pub fn rgb(&self, l: Spectrum<f32>, w: &Wavelengths) -> [f32; 3] {
-        let mut s = self.sensor.to_sensor_rgb(l, w);
+        let mut s = match &self.response {
+            Response::Spectral(sensor) => sensor.to_sensor_rgb(l, w),
+            Response::Rgb(to_xyz) => to_xyz.map(|m| m[0] * l[0] + m[1] * l[1] + m[2] * l[2]),
+        };
         let largest = s[0].max(s[1]).max(s[2]);
         if largest > self.max_component {
             s = s.map(|c| c * (self.max_component / largest));
@@ -59,14 +79,23 @@ impl RenderPlan {
             let known = Sensor::names().join(", ");
             return Err(vec![format!("there is no sensor `{}`; known are {known}", film.sensor)]);
         };
+        let carrier = Carrier::new(film);
+        if carrier != Carrier::Wavelengths && film.sensor != "cie1931" {
+            return Err(vec![format!(
+                "the sensor `{}` responds to wavelengths, and paths that carry RGB have none; take the sensor `cie1931`, or \
+                 the colour mode `spectral`",
+                film.sensor
+            )]);
+        }
+        let to_output = sensor.output_rgb_from_sensor();
+        let response = match carrier {
+            Carrier::Wavelengths => Response::Spectral(Box::new(sensor)),
+            Carrier::Rgb(space) => Response::Rgb(space.rgb_to_xyz().map(|row| row.map(|m| m * ratio))),
+        };
         let sampler = Sampler::new(&sampler_config(&desc.sampler, desc.seed, film.resolution));
         Ok(RenderPlan {
             filter: FilterSampler::new(&filter(desc.filter)),
-            sensor: FilmSensor {
-                to_output: sensor.output_rgb_from_sensor(),
-                sensor,
-                max_component: film.max_component_value,
-            },
+            sensor: FilmSensor { carrier, to_output, response, max_component: film.max_component_value },
             integrator: PathIntegrator::new(&desc.integrator),
             one_by_one: desc.integrator.name == IntegratorName::Reference,
             bounds: film.pixel_bounds,

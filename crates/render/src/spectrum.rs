@@ -17,6 +17,14 @@ pub(crate) enum SceneSpectrum {
     Sigmoid(f32, Sigmoid),
     /// A table at 1 nm.
     Dense(Arc<DenseSpectrum>),
+    /// Red, green, blue and green, where paths carry these.
+    Channels(Spectrum<f32>),
+}
+
+impl From<DenseSpectrum> for SceneSpectrum {
+    fn from(table: DenseSpectrum) -> SceneSpectrum {
+        SceneSpectrum::Dense(Arc::new(table))
+    }
 }
 
 impl SceneSpectrum {
@@ -48,6 +56,7 @@ impl SceneSpectrum {
             SceneSpectrum::Constant(v) => Spectrum::splat(*v),
             SceneSpectrum::Sigmoid(scale, s) => s.at(w) * *scale,
             SceneSpectrum::Dense(d) => d.at(w),
+            SceneSpectrum::Channels(c) => *c,
         }
     }
 
@@ -57,7 +66,20 @@ impl SceneSpectrum {
         match self {
             SceneSpectrum::Constant(v) => SceneSpectrum::Constant(v * s),
             SceneSpectrum::Sigmoid(scale, g) => SceneSpectrum::Sigmoid(scale * s, *g),
-            SceneSpectrum::Dense(d) => SceneSpectrum::Dense(Arc::new(d.scaled(s))),
+            SceneSpectrum::Dense(d) => SceneSpectrum::from(d.scaled(s)),
+            SceneSpectrum::Channels(c) => SceneSpectrum::Channels(*c * s),
+        }
+    }
+
+    /// `f` of each value.
+    #[must_use]
+    pub(crate) fn map(&self, f: impl Fn(f32) -> f32) -> SceneSpectrum {
+        match self {
+            SceneSpectrum::Constant(v) => SceneSpectrum::Constant(f(*v)),
+            SceneSpectrum::Channels(c) => SceneSpectrum::Channels(c.map(f)),
+            SceneSpectrum::Sigmoid(..) | SceneSpectrum::Dense(_) => {
+                SceneSpectrum::from(self.to_dense().map(f))
+            }
         }
     }
 
@@ -67,6 +89,10 @@ impl SceneSpectrum {
             SceneSpectrum::Constant(v) => DenseSpectrum::constant(*v),
             SceneSpectrum::Sigmoid(scale, s) => DenseSpectrum::from_fn(|l| scale * s.value(l)),
             SceneSpectrum::Dense(d) => (**d).clone(),
+            // Blue, green and red thirds of what is seen.
+            SceneSpectrum::Channels(c) => {
+                DenseSpectrum::from_fn(|l| c[if l < 490.0 { 2 } else { usize::from(l < 580.0) }])
+            }
         }
     }
 }
@@ -74,7 +100,7 @@ impl SceneSpectrum {
 /// The emission of a light, as a table, brought to unit luminous output before its scale, as pbrt-v4 does.
 ///
 /// For RGB the illuminant of the colour space is what is normalised, not the colour: RGB (1, 1, 1) has luminance 1.
-pub(crate) fn light_spectrum(desc: &SpectrumDesc) -> DenseSpectrum {
+pub(crate) fn light_table(desc: &SpectrumDesc) -> DenseSpectrum {
     let (table, reference) = match desc {
         SpectrumDesc::Rgb(_, space) => {
             (SceneSpectrum::new(desc, RgbRole::Illuminant).to_dense(), photometric(space.illuminant()))

@@ -38,7 +38,7 @@ impl<'a> CameraSample<'a> {
     ) -> CameraSample<'a> {
         let [x, y] = [pixel[0] + plan.bounds[0], pixel[1] + plan.bounds[2]];
         let mut sampler = sampler.start([x, y], sample);
-        let lambda = Wavelengths::sample_visible(sampler.get_1d());
+        let lambda = plan.sensor.wavelengths(sampler.get_1d());
         let time = if scene.moves { scene.camera.time(sampler.get_1d()) } else { 0.0 };
         let f = plan.filter.sample(sampler.get_pixel_2d());
         sampler.set_dimension(2);

@@ -7,11 +7,12 @@ use sparrow_geometry::{Geometry, ShapeSample};
 use sparrow_image::Image;
 use sparrow_math::{Aabb, Frame, Real, Transform, Vec3, vec3};
 use sparrow_scene::{AreaLightId, Emission, LightDesc, LightKind, LightSamplerName, SceneDesc};
-use sparrow_spectra::{ColorSpace, DenseSpectrum, photometric};
+use sparrow_spectra::{ColorSpace, photometric};
 
 use super::selection::{LightBounds, WEIGH_ALL};
-use super::{Environment, Light, LightSelection, Lights, NO_LIGHT};
-use crate::spectrum::light_spectrum;
+use super::{Environment, EnvironmentColour, Light, LightSelection, Lights, NO_LIGHT};
+use crate::colour::{Carrier, converted};
+use crate::spectrum::SceneSpectrum;
 use crate::texture::to_equal_area;
 
 /// What the lights of a scene are built from.
@@ -32,6 +33,7 @@ impl LightBuild<'_> {
     pub fn build(&self, faults: &mut Vec<String>, notes: &mut Vec<String>) -> Lights {
         let mut out = Parts {
             lights: Vec::new(),
+            carrier: Carrier::new(&self.desc.film),
             emissions: Vec::new(),
             known: HashMap::new(),
             bounds: Vec::new(),
@@ -173,7 +175,7 @@ impl LightBuild<'_> {
             LightKind::InfiniteImage { path, scale, illuminance, color_space } => {
                 let image =
                     EnvironmentImage { path, scale: *scale, illuminance: *illuminance, space: *color_space };
-                let env = image.load(&light.to_world, self.compensate)?;
+                let env = image.load(&light.to_world, self.compensate, out.carrier)?;
                 out.infinite.push(out.lights.len() as u32);
                 let strength = env.mean() * four_pi * disk;
                 out.push(Light::Environment(Box::new(env)), strength, Aabb::EMPTY);
@@ -192,7 +194,7 @@ struct EnvironmentImage<'a> {
 }
 
 impl EnvironmentImage<'_> {
-    fn load(&self, to_world: &Transform, compensate: bool) -> Result<Environment, String> {
+    fn load(&self, to_world: &Transform, compensate: bool, carrier: Carrier) -> Result<Environment, String> {
         let image = Image::read(self.path, None).map_err(|e| e.to_string())?;
         if image.width != image.height && image.width != 2 * image.height {
             return Err(format!(
@@ -203,21 +205,31 @@ impl EnvironmentImage<'_> {
                 image.height
             ));
         }
-        let (n, rgb) = to_equal_area(&image);
+        let (n, mut rgb) = to_equal_area(&image);
         let scale = match self.illuminance.filter(|e| *e > 0.0) {
             Some(e) => self.scale * e / upper_illuminance(n, &rgb).max(1e-30),
             None => self.scale,
         };
-        let illuminant = self.space.illuminant();
-        let illuminant = illuminant.scaled(1.0 / photometric(illuminant));
-        Ok(Environment::new(n, rgb, scale, self.space, illuminant, to_world, compensate))
+        let light = match carrier {
+            Carrier::Rgb(space) => {
+                rgb.iter_mut().for_each(|c| *c = converted(*c, self.space, space).map(|c| c.max(0.0)));
+                EnvironmentColour::Rgb
+            }
+            Carrier::Wavelengths => {
+                let illuminant = self.space.illuminant();
+                let illuminant = illuminant.scaled(1.0 / photometric(illuminant));
+                EnvironmentColour::Spectral { space: self.space, illuminant }
+            }
+        };
+        Ok(Environment::new(n, rgb, scale, light, to_world, compensate))
     }
 }
 
 /// Lights in the making.
 struct Parts {
     lights: Vec<Light>,
-    emissions: Vec<DenseSpectrum>,
+    carrier: Carrier,
+    emissions: Vec<SceneSpectrum>,
     known: HashMap<String, u32>,
     bounds: Vec<LightBounds>,
     infinite: Vec<u32>,
@@ -228,13 +240,13 @@ impl Parts {
     fn emission(&mut self, e: &Emission) -> u32 {
         let key = format!("{:?}", e.spectrum);
         *self.known.entry(key).or_insert_with(|| {
-            self.emissions.push(light_spectrum(&e.spectrum));
+            self.emissions.push(self.carrier.emission(&e.spectrum));
             self.emissions.len() as u32 - 1
         })
     }
     /// Luminance of a table.
     fn brightness(&self, emission: u32) -> f32 {
-        photometric(&self.emissions[emission as usize])
+        self.carrier.luminance(&self.emissions[emission as usize])
     }
     fn push(&mut self, light: Light, power: f32, bounds: Aabb) {
         self.lights.push(light);

@@ -5,7 +5,22 @@ use core::f32::consts::PI;
 use sparrow_math::{Transform, Vec3, warp};
 use sparrow_spectra::{ColorSpace, DenseSpectrum, Spectrum, Wavelengths, rgb_to_sigmoid};
 
+use crate::colour::four;
 use crate::distribution::{Draw2, Piecewise2};
+
+/// What the pixels of an environment map stand for.
+#[derive(Debug)]
+pub enum EnvironmentColour {
+    /// Spectra: RGB of that space, lit by its illuminant, which is brought to unit luminance.
+    Spectral {
+        /// The space of the pixels.
+        space: ColorSpace,
+        /// Its illuminant.
+        illuminant: DenseSpectrum,
+    },
+    /// The channels that paths carry.
+    Rgb,
+}
 
 /// An environment map in pbrt-v4's square equal-area layout, looked up at the nearest pixel.
 #[derive(Debug)]
@@ -14,9 +29,7 @@ pub struct Environment {
     /// Linear RGB, row by row.
     rgb: Vec<[f32; 3]>,
     scale: f32,
-    space: ColorSpace,
-    /// The colour space's illuminant, brought to unit luminance.
-    illuminant: DenseSpectrum,
+    colour: EnvironmentColour,
     density: Piecewise2,
     /// Rotation of the map, by columns: map to world.
     axes: [Vec3<f32>; 3],
@@ -31,8 +44,7 @@ impl Environment {
         n: usize,
         rgb: Vec<[f32; 3]>,
         scale: f32,
-        space: ColorSpace,
-        illuminant: DenseSpectrum,
+        colour: EnvironmentColour,
         to_world: &Transform,
         compensate: bool,
     ) -> Environment {
@@ -51,8 +63,7 @@ impl Environment {
             n,
             rgb,
             scale,
-            space,
-            illuminant,
+            colour,
             density: Piecewise2::new(&brightness, n, n),
             axes: e.map(|(x, y, z)| axis(sparrow_math::vec3(x, y, z))),
         }
@@ -78,12 +89,15 @@ impl Environment {
         let st = self.square(wi);
         let at = |v: f32| ((v * self.n as f32) as usize).min(self.n - 1);
         let rgb = self.rgb[at(st[1]) * self.n + at(st[0])];
+        let EnvironmentColour::Spectral { space, illuminant } = &self.colour else {
+            return Spectrum(four(rgb)) * self.scale;
+        };
         let m = 2.0 * rgb[0].max(rgb[1]).max(rgb[2]);
         if !(m > 0.0) {
             return Spectrum::ZERO;
         }
-        let s = rgb_to_sigmoid(rgb.map(|c| (c / m).max(0.0)), self.space);
-        s.at(w) * self.illuminant.at(w) * (m * self.scale)
+        let s = rgb_to_sigmoid(rgb.map(|c| (c / m).max(0.0)), *space);
+        s.at(w) * illuminant.at(w) * (m * self.scale)
     }
 
     /// Mean of the image times the scale: for estimates of power.

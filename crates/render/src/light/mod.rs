@@ -6,10 +6,12 @@ mod selection;
 
 use sparrow_geometry::{Geometry, ShapeSample, SurfacePoint};
 use sparrow_math::{Real, Transform, Vec3};
-use sparrow_spectra::{DenseSpectrum, Spectrum, Wavelengths};
+use sparrow_spectra::{Spectrum, Wavelengths};
+
+use crate::spectrum::SceneSpectrum;
 
 pub use build::LightBuild;
-pub use environment::Environment;
+pub use environment::{Environment, EnvironmentColour};
 pub use selection::LightSelection;
 
 /// Marks shapes that emit nothing.
@@ -116,7 +118,7 @@ pub struct LitPoint {
 #[derive(Debug)]
 pub struct Lights {
     lights: Vec<Light>,
-    emissions: Vec<DenseSpectrum>,
+    emissions: Vec<SceneSpectrum>,
     /// First light of each shape, or [`NO_LIGHT`].
     first_of_shape: Vec<u32>,
     /// Lights that rays meet where they leave the scene.

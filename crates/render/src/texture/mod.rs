@@ -9,12 +9,13 @@ use std::sync::Arc;
 
 use sparrow_math::{Transform, Vec3};
 use sparrow_scene::{FloatTexture, FloatTextureId, Mapping, SceneDesc, SpectrumTexture, SpectrumTextureId};
-use sparrow_spectra::{ColorSpace, RgbRole, Spectrum, Wavelengths, rgb_to_sigmoid};
+use sparrow_spectra::{ColorSpace, RgbRole, Spectrum, Wavelengths};
 
 pub(crate) use image_map::to_equal_area;
 pub(crate) use image_map::{ImageTexture, LoadedImage};
 use mapping::TexCoord;
 
+use crate::colour::Carrier;
 use crate::spectrum::SceneSpectrum;
 
 /// Where a texture is evaluated.
@@ -73,8 +74,9 @@ impl Checkerboard {
 }
 
 /// All textures of a scene, in flat arrays.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(crate) struct Textures {
+    carrier: Carrier,
     floats: Vec<FloatNode>,
     spectra: Vec<SpectrumNode>,
     /// Copies of spectral textures that a second role needed: (texture, role) to index.
@@ -88,7 +90,13 @@ impl Textures {
     /// # Errors
     /// Images that cannot be read, one message each.
     pub(crate) fn new(desc: &SceneDesc, faults: &mut Vec<String>) -> Textures {
-        let mut t = Textures::default();
+        let mut t = Textures {
+            carrier: Carrier::new(&desc.film),
+            floats: Vec::new(),
+            spectra: Vec::new(),
+            roles: HashMap::new(),
+            images: HashMap::new(),
+        };
         for tex in &desc.float_textures {
             let node = match tex {
                 FloatTexture::Constant(v) => FloatNode::Constant(*v),
@@ -122,7 +130,7 @@ impl Textures {
             return done;
         }
         let node = match &desc.spectrum_textures[id.0 as usize] {
-            SpectrumTexture::Constant(s) => SpectrumNode::Constant(SceneSpectrum::new(s, role)),
+            SpectrumTexture::Constant(s) => SpectrumNode::Constant(self.carrier.spectrum(s, role)),
             SpectrumTexture::Scale(a, f) => SpectrumNode::Scale(self.spectrum(desc, *a, role, faults), *f),
             SpectrumTexture::Mix { a, b, amount } => SpectrumNode::Mix(
                 self.spectrum(desc, *a, role, faults),
@@ -175,7 +183,9 @@ impl Textures {
                 let t = self.float(*amount, ctx);
                 self.value(*a, ctx, w) * (1.0 - t) + self.value(*b, ctx, w) * t
             }
-            SpectrumNode::Image(image, space, role) => image_spectrum(image.rgb(ctx), *space, *role, w),
+            SpectrumNode::Image(image, space, role) => {
+                self.carrier.of_image(image.rgb(ctx), *space, *role, w)
+            }
             SpectrumNode::Checkerboard(board, tex) => self.value(tex[board.cell(ctx)], ctx, w),
         }
     }
@@ -206,19 +216,4 @@ impl Textures {
 
 fn checkerboard(dimension: u32, mapping: &Mapping, to_texture: &Transform) -> Checkerboard {
     if dimension == 3 { Checkerboard::Space(*to_texture) } else { Checkerboard::Plane(*mapping) }
-}
-
-/// The spectrum that stands for an image's RGB value.
-fn image_spectrum(rgb: [f32; 3], space: ColorSpace, role: RgbRole, w: &Wavelengths) -> Spectrum<f32> {
-    match role {
-        RgbRole::Albedo => rgb_to_sigmoid(rgb.map(|c| c.clamp(0.0, 1.0)), space).at(w),
-        RgbRole::Unbounded | RgbRole::Illuminant => {
-            let scale = 2.0 * rgb[0].max(rgb[1]).max(rgb[2]);
-            if scale <= 0.0 {
-                return Spectrum::ZERO;
-            }
-            let s = rgb_to_sigmoid(rgb.map(|c| (c / scale).clamp(0.0, 1.0)), space).at(w) * scale;
-            if role == RgbRole::Illuminant { s * space.illuminant().at(w) } else { s }
-        }
-    }
 }

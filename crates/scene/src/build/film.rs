@@ -39,6 +39,7 @@ impl Builder {
             max_component_value: self.above_zero(p, "maxcomponentvalue").unwrap_or(f32::INFINITY),
             diagonal: self.above_zero(p, "diagonal").unwrap_or(35.0),
             color_space: p.color_space,
+            colour: self.setup.colour,
         }
     }
 

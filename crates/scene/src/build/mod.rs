@@ -29,7 +29,7 @@ use std::sync::Arc;
 
 use sparrow_math::Transform;
 
-use crate::desc::{AreaLightDesc, LightDesc, Mesh};
+use crate::desc::{AreaLightDesc, ColourMode, LightDesc, Mesh};
 use crate::diagnostic::Span;
 use crate::params::Params;
 use crate::report::Report;
@@ -60,6 +60,7 @@ struct Setup {
     sampler: Option<Statement>,
     integrator: Option<Statement>,
     seed: u64,
+    colour: ColourMode,
     /// When motion starts and ends.
     transform_times: [f64; 2],
 }
@@ -73,6 +74,7 @@ impl Default for Setup {
             sampler: None,
             integrator: None,
             seed: 0,
+            colour: ColourMode::Spectral,
             transform_times: [0.0, 1.0],
         }
     }

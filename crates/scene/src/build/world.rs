@@ -7,6 +7,7 @@ use super::materials::{MaterialRef, PendingMaterial};
 use super::textures::PendingTexture;
 use super::{Builder, Setup, Statement};
 use crate::check;
+use crate::desc::ColourMode;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::params::{Param, Params};
 use crate::parser::Parser;
@@ -256,6 +257,17 @@ impl Builder {
                     return Ok(());
                 }
                 Ok(_) | Err(_) => "a whole number",
+            },
+            OptionValue::Colour => match value.as_str() {
+                "spectral" if is_quoted => {
+                    self.setup.colour = ColourMode::Spectral;
+                    return Ok(());
+                }
+                "rgb" if is_quoted => {
+                    self.setup.colour = ColourMode::Rgb;
+                    return Ok(());
+                }
+                _ => "\"spectral\" or \"rgb\"",
             },
             OptionValue::Flag | OptionValue::MootFlag => match (value.as_str(), kind) {
                 ("true", OptionValue::Flag) => {

@@ -29,7 +29,7 @@ pub use spectrum::{Emission, SpectrumDesc};
 pub use texture::{
     FloatTexture, ImageMap, Mapping, SpectrumTexture, TextureEncoding, TextureFilter, WrapMode,
 };
-pub use view::{CameraDesc, FilmDesc, FilterDesc, Projection};
+pub use view::{CameraDesc, ColourMode, FilmDesc, FilterDesc, Projection};
 
 /// A whole scene.
 #[derive(Clone, Debug)]

@@ -40,6 +40,16 @@ pub struct CameraDesc {
     pub shutter: [f32; 2],
 }
 
+/// What paths carry.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ColourMode {
+    /// Values at wavelengths of their own.
+    #[default]
+    Spectral,
+    /// Red, green and blue of the film's colour space: quicker and less noisy, but not what light does.
+    Rgb,
+}
+
 /// A film.
 #[derive(Clone, Debug)]
 pub struct FilmDesc {
@@ -65,6 +75,8 @@ pub struct FilmDesc {
     pub diagonal: f32,
     /// Colour space of the output.
     pub color_space: ColorSpace,
+    /// What paths carry, from `Option "colour"`.
+    pub colour: ColourMode,
 }
 
 /// A pixel filter, with its radius in pixels along x and y.

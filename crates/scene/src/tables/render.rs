@@ -163,6 +163,8 @@ pub(super) static ACCELERATORS: [Entity; 2] = [
 pub(crate) enum OptionValue {
     /// The seed, a whole number.
     Seed,
+    /// What paths carry, "spectral" or "rgb".
+    Colour,
     /// `true` changes the picture in a way that is not supported yet.
     Flag,
     /// `true` or `false` without effect on the picture.
@@ -174,8 +176,10 @@ pub(crate) enum OptionValue {
 }
 
 /// The options, by their names without `-` and `_`.
-pub(crate) const OPTIONS: [(&str, OptionValue); 14] = [
+pub(crate) const OPTIONS: [(&str, OptionValue); 16] = [
     ("seed", OptionValue::Seed),
+    ("colour", OptionValue::Colour),
+    ("color", OptionValue::Colour),
     ("disablepixeljitter", OptionValue::Flag),
     ("disabletexturefiltering", OptionValue::Flag),
     ("disablewavelengthjitter", OptionValue::Flag),
