@@ -27,7 +27,7 @@ pub(super) fn ply(nu: u32, nv: u32, vertex: impl Fn(u32, u32) -> [f64; 8]) -> St
 }
 
 /// Four decimals, without the sign of a zero.
-fn short(x: f64) -> String {
+pub(super) fn short(x: f64) -> String {
     let text = format!("{x:.4}");
     if text == "-0.0000" {
         "0".to_owned()

@@ -1,5 +1,6 @@
 //! Images and meshes of our own scenes, made by formula: small, and the same on every machine.
 
+mod bulbs;
 mod cloth;
 mod grid;
 mod herbert;
@@ -26,12 +27,18 @@ pub fn write(scenes: &Path) -> Result<String, String> {
         png(&path, side, colour)?;
         report.push(path);
     }
-    for (name, text) in [("cloth", cloth::ply()), ("herbert", herbert::ply()), ("vase", vase::ply())] {
+    for (name, text) in meshes() {
         let path = scenes.join(format!("meshes/{name}.ply"));
         fs::write(&path, text).map_err(|e| format!("{}: {e}", path.display()))?;
         report.push(path);
     }
     Ok(report.iter().map(|p| format!("wrote {}", p.display())).collect::<Vec<_>>().join("\n"))
+}
+
+/// Meshes as PLY text, by name.
+fn meshes() -> Vec<(String, String)> {
+    let bodies = [("cloth", cloth::ply()), ("herbert", herbert::ply()), ("vase", vase::ply())];
+    bodies.map(|(name, text)| (name.to_owned(), text)).into_iter().chain(bulbs::all()).collect()
 }
 
 /// A colour of a square image at column `x`, row `y` from the top: sRGB codes.
@@ -57,7 +64,7 @@ mod tests {
         let fresh = std::env::temp_dir().join(format!("xtask-assets-{}", std::process::id()));
         write(&fresh).expect("assets");
         let mut names: Vec<String> = textures::ALL.iter().map(|(n, ..)| format!("textures/{n}")).collect();
-        names.extend(["cloth", "herbert", "vase"].map(|n| format!("meshes/{n}.ply")));
+        names.extend(meshes().into_iter().map(|(n, _)| format!("meshes/{n}.ply")));
         for name in names {
             let [old, new] = [scenes.join(&name), fresh.join(&name)].map(|p| fs::read(p).expect("a file"));
             assert!(old == new, "{name} differs; run `cargo run -p xtask -- assets`");

@@ -1,8 +1,14 @@
 //! Lights: what they send towards a point, and how likely a direction is to be sampled.
 
+mod bounds;
 mod build;
+mod eight;
 mod environment;
+mod group;
 mod selection;
+#[cfg(test)]
+mod tests;
+mod tree;
 
 use sparrow_geometry::{Geometry, ShapeSample, SurfacePoint};
 use sparrow_math::{Real, Transform, Vec3};

@@ -23,6 +23,7 @@
 //! padded kind; other counts are as well stratified as a prefix of the sequence can be. Two padded
 //! pairs are shuffled against each other in random blocks of 16 samples (fewer where fewer divide the count).
 
+mod column;
 mod config;
 mod halton;
 mod hash;

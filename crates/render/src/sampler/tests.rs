@@ -2,7 +2,7 @@
 
 use sparrow_math::{ONE_MINUS_EPSILON, Real};
 
-use super::{Randomize, Sampler, SamplerConfig, SamplerKind};
+use super::{PixelSampler, Randomize, Sampler, SamplerConfig, SamplerKind};
 
 const KINDS: [SamplerKind; 7] = [
     SamplerKind::Independent,
@@ -332,4 +332,32 @@ fn notes_say_what_differs() {
         sampler(SamplerKind::Stratified { x: 3, y: 3, jitter: true }, 16, 0).notes()[0].contains("9 samples")
     );
     assert_eq!(sampler(SamplerKind::ZSobol, 48, 0).samples_per_pixel(), 48);
+}
+
+#[test]
+fn columns_equal_single_numbers() {
+    for kind in KINDS {
+        for randomize in [Randomize::None, Randomize::PermuteDigits, Randomize::FastOwen, Randomize::Owen] {
+            let config =
+                SamplerConfig { kind, randomize, samples_per_pixel: 64, seed: 3, resolution: [640, 400] };
+            let s = Sampler::new(&config);
+            // 150 paths fill two chunks and a part; the last sample sets high bits of a global index.
+            let start =
+                |i: u32| s.start([i * 7 % 640, i * 13 % 400], if i == 149 { u32::MAX } else { i % 64 });
+            let paths: Vec<PixelSampler<'_>> = (0..150).map(start).collect();
+            for d in [0, 5, 124, 125, 126, 127, 1_000_000] {
+                let (mut a, mut x, mut y) = ([0.0; 150], [0.0; 150], [0.0; 150]);
+                s.fill_1d(&paths, d, &mut a);
+                s.fill_2d(&paths, d, [&mut x, &mut y]);
+                for (i, p) in paths.iter().enumerate() {
+                    assert_eq!(a[i], p.at(d).get_1d(), "{kind:?} {randomize:?}: {i} at {d}");
+                    assert_eq!([x[i], y[i]], p.at(d).get_2d(), "{kind:?} {randomize:?}: pair {i} at {d}");
+                }
+                s.fill_pixel_2d(&paths, [&mut x, &mut y]);
+                for (i, p) in paths.iter().enumerate() {
+                    assert_eq!([x[i], y[i]], p.at(d).get_pixel_2d(), "{kind:?} {randomize:?}: pixel {i}");
+                }
+            }
+        }
+    }
 }
