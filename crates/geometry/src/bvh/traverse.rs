@@ -151,25 +151,19 @@ impl<A: Fn(&RawHit) -> bool> Best<A> {
 }
 
 /// Many rays through a tree: the vector unit is chosen once for all.
-struct Walks<'a, const ANY: bool, O, A, P> {
+struct Walks<'a, const ANY: bool, O, P> {
     bvh: &'a Bvh,
     rays: &'a [Ray],
     others: &'a O,
-    accept: A,
     put: P,
 }
 
-impl<const ANY: bool, O, A, P> Kernel for Walks<'_, ANY, O, A, P>
-where
-    O: Others,
-    A: Fn(&RawHit) -> bool,
-    P: FnMut(usize, Option<RawHit>),
-{
+impl<const ANY: bool, O: Others, P: FnMut(usize, Option<RawHit>)> Kernel for Walks<'_, ANY, O, P> {
     type Output = ();
     #[inline(always)]
     fn run<S: Simd>(mut self) {
         for (i, ray) in self.rays.iter().enumerate() {
-            let mut best = Best { accept: &self.accept, hit: None, t_max: ray.t_max };
+            let mut best = Best { accept: |_: &RawHit| true, hit: None, t_max: ray.t_max };
             walk::<S, ANY>(self.bvh, ray, self.others, |h| best.offer::<ANY>(h));
             (self.put)(i, best.hit);
         }
@@ -194,14 +188,13 @@ impl Bvh {
         self.unit.run(Walk::<ANY, _, _> { bvh: self, ray, others, found: |h| best.offer::<ANY>(h) });
         best.hit
     }
-    /// The same for each ray of a list; `put` takes the answers in order.
+    /// The same for each ray of a list, without a choice; `put` takes the answers in order.
     pub(crate) fn hits<const ANY: bool>(
         &self,
         rays: &[Ray],
         others: &impl Others,
-        accept: impl Fn(&RawHit) -> bool,
         put: impl FnMut(usize, Option<RawHit>),
     ) {
-        self.unit.run(Walks::<ANY, _, _, _> { bvh: self, rays, others, accept, put });
+        self.unit.run(Walks::<ANY, _, _> { bvh: self, rays, others, put });
     }
 }

@@ -5,6 +5,7 @@ mod build;
 mod curves;
 mod exact;
 mod instances;
+mod many;
 mod rays;
 mod sampling;
 mod spawn;

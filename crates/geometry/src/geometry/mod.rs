@@ -1,21 +1,19 @@
 //! [`Geometry`]: shapes with a hierarchy over them.
 
-use core::cell::Cell;
+mod body;
+mod query;
+
 use std::time::Instant;
 
-use rayon::prelude::*;
+use body::{Bodies, Body};
 use sparrow_math::{Aabb, Vec3};
 
-use crate::bvh::{Bvh, Kind, MAX_PRIMS, Others, PrimRef, RawHit};
-use crate::curve::Curves;
-use crate::instance::{Instance, Instances, MovingInstance, World};
-use crate::patch::Patches;
+use crate::bvh::{Bvh, MAX_PRIMS};
+use crate::instance::{Instance, Instances, MovingInstance};
 use crate::point::{ShapeSample, SurfacePoint};
-use crate::quadric::Quadric;
 use crate::ray::{Hit, Ray};
 use crate::sample::per_steradian;
-use crate::shape::{Shape, ShapeInstance};
-use crate::triangle::Triangles;
+use crate::shape::ShapeInstance;
 
 /// What building cost and gave.
 #[derive(Clone, Copy, Debug, Default)]
@@ -32,86 +30,6 @@ pub struct BuildStats {
     pub build_seconds: f64,
 }
 
-/// A shape ready to be asked.
-#[derive(Debug)]
-enum Body {
-    Triangles(Triangles),
-    Patches(Patches),
-    Curves(Curves),
-    /// `None` where nothing of it can be hit.
-    Quadric(Option<Box<Quadric>>),
-}
-
-impl Body {
-    fn new(s: ShapeInstance) -> Body {
-        match s.shape {
-            Shape::Triangles(m) => Body::Triangles(Triangles::new(m, s.flip_normal)),
-            Shape::Patches(m) => Body::Patches(Patches::new(m, s.flip_normal)),
-            Shape::Curves(c) => Body::Curves(Curves::new(c)),
-            quadric @ (Shape::Sphere { .. } | Shape::Disk { .. } | Shape::Cylinder { .. }) => {
-                Body::Quadric(Quadric::new(&quadric, &s.to_world, s.flip_normal).map(Box::new))
-            }
-        }
-    }
-    fn n_prims(&self) -> usize {
-        match self {
-            Body::Triangles(m) => m.len(),
-            Body::Patches(m) => m.len(),
-            Body::Curves(c) => c.len(),
-            Body::Quadric(_) => 1,
-        }
-    }
-    /// Numbers the tree sets aside.
-    fn n_ids(&self) -> usize {
-        match self {
-            Body::Triangles(m) => m.len(),
-            Body::Patches(m) => 2 * m.len(),
-            Body::Curves(c) => c.n_ids(),
-            Body::Quadric(_) => 1,
-        }
-    }
-    fn bytes(&self) -> usize {
-        match self {
-            Body::Triangles(m) => m.bytes(),
-            Body::Patches(m) => m.bytes(),
-            Body::Curves(c) => c.bytes(),
-            Body::Quadric(_) => size_of::<Quadric>(),
-        }
-    }
-    /// What the tree holds of this shape, numbered from `first`; and how many of its primitives that leaves out.
-    fn refs(&self, first: u32, out: &mut Vec<PrimRef>) -> usize {
-        let before = out.len();
-        match self {
-            Body::Triangles(m) => {
-                let one = |i: u32| m.bounds(i).map(|b| PrimRef::new(first + i, b, Kind::Triangles));
-                out.par_extend((0..m.len() as u32).into_par_iter().filter_map(one));
-                m.len() - (out.len() - before)
-            }
-            Body::Patches(m) => {
-                let mut dropped = 0;
-                for i in 0..m.len() as u32 {
-                    let parts = m.parts(i);
-                    dropped += usize::from(parts.is_empty());
-                    out.extend(parts.iter().map(|&(id, b, other)| {
-                        PrimRef::new(first + id, b, if other { Kind::Others } else { Kind::Triangles })
-                    }));
-                }
-                dropped
-            }
-            Body::Curves(c) => {
-                let block = |(i, &b): (usize, &Aabb)| PrimRef::new(first + i as u32, b, Kind::Others);
-                out.extend(c.blocks().iter().enumerate().map(block));
-                c.dropped()
-            }
-            Body::Quadric(Some(q)) => {
-                out.push(PrimRef::new(first, q.bounds(), Kind::Others));
-                0
-            }
-            Body::Quadric(None) => 1,
-        }
-    }
-}
-
 /// Shapes with a hierarchy over them. Immutable; shared freely between threads.
 #[derive(Debug)]
 pub struct Geometry {
@@ -121,86 +39,6 @@ pub struct Geometry {
     first_instance: u32,
     bvh: Bvh,
     stats: BuildStats,
-}
-
-/// The shapes, and which numbers the tree gave to each.
-#[derive(Debug)]
-struct Bodies {
-    bodies: Vec<Body>,
-    /// The first number of each shape.
-    first: Vec<u32>,
-}
-
-impl Bodies {
-    /// Numbers what the tree may hold of all shapes; gives how many numbers that takes. A shape for which there are none left
-    /// gets none.
-    fn new(bodies: Vec<Body>) -> (Bodies, usize) {
-        let mut next = 0;
-        let number = |b: &Body| {
-            let first = next;
-            if next + b.n_ids() <= MAX_PRIMS {
-                next += b.n_ids();
-            }
-            first as u32
-        };
-        let first = bodies.iter().map(number).collect();
-        (Bodies { bodies, first }, next)
-    }
-    /// What a tree over some of the shapes holds, and how many of their primitives that leaves out.
-    fn refs(&self, shapes: core::ops::Range<usize>) -> (Vec<PrimRef>, usize) {
-        let (mut refs, mut dropped) = (Vec::new(), 0);
-        for (body, &first) in self.bodies[shapes.clone()].iter().zip(&self.first[shapes]) {
-            if first as usize + body.n_ids() <= MAX_PRIMS {
-                dropped += body.refs(first, &mut refs);
-            } else {
-                dropped += body.n_prims();
-            }
-        }
-        (refs, dropped)
-    }
-    /// The shape that a number of the tree belongs to, and the number within it.
-    #[inline]
-    fn locate(&self, id: u32) -> (u32, u32) {
-        let shape = self.first.partition_point(|&f| f <= id) - 1;
-        (shape as u32, id - self.first[shape])
-    }
-    fn corners(&self, id: u32) -> [[f32; 3]; 3] {
-        let (shape, local) = self.locate(id);
-        match &self.bodies[shape as usize] {
-            Body::Triangles(m) => m.raw_corners(local),
-            Body::Patches(m) => m.triangle(local),
-            Body::Curves(_) | Body::Quadric(_) => [[f32::NAN; 3]; 3],
-        }
-    }
-    /// What the world knows of a point the tree found.
-    #[inline]
-    fn to_hit(&self, raw: &RawHit) -> Hit {
-        let (shape, local) = self.locate(raw.id);
-        let (prim, [u, v]) = match &self.bodies[shape as usize] {
-            Body::Triangles(_) | Body::Curves(_) => (local, [raw.u, raw.v]),
-            Body::Patches(m) => (local / 2, m.parameters(local, raw)),
-            Body::Quadric(_) => (0, [0.0; 2]),
-        };
-        Hit { t: raw.t, shape, prim, u, v, instance: None }
-    }
-}
-
-impl Others for Bodies {
-    fn hit(&self, id: u32, ray: &Ray, t_max: f32, found: &mut impl FnMut(RawHit) -> f32) -> f32 {
-        let (shape, local) = self.locate(id);
-        match &self.bodies[shape as usize] {
-            Body::Patches(m) => m.hit(id, local, ray, t_max, found),
-            Body::Curves(c) => c.hit(id - local, local, ray, t_max, found),
-            Body::Quadric(Some(q)) => q.hit(id, ray, t_max, found),
-            Body::Triangles(_) | Body::Quadric(None) => t_max,
-        }
-    }
-    fn ahead(&self, id: u32) {
-        let (shape, local) = self.locate(id);
-        if let Body::Curves(c) = &self.bodies[shape as usize] {
-            c.ahead(local);
-        }
-    }
 }
 
 impl Geometry {
@@ -263,65 +101,6 @@ impl Geometry {
         Geometry { bodies, instances, first_instance, bvh, stats }
     }
 
-    /// The nearest point of the ray on any shape.
-    #[inline]
-    pub fn intersect(&self, ray: &Ray) -> Option<Hit> {
-        if self.instances.len() > 0 {
-            return self.among_instances::<false>(ray, |_| true);
-        }
-        let raw = self.bvh.hit::<false>(ray, &self.bodies, |_| true)?;
-        Some(self.bodies.to_hit(&raw))
-    }
-    /// Something lies on the ray.
-    #[inline]
-    pub fn occluded(&self, ray: &Ray) -> bool {
-        if self.instances.len() > 0 {
-            return self.among_instances::<true>(ray, |_| true).is_some();
-        }
-        self.bvh.hit::<true>(ray, &self.bodies, |_| true).is_some()
-    }
-    /// The nearest point of the ray that `accept` does not reject.
-    pub fn intersect_where(&self, ray: &Ray, accept: impl Fn(&Hit) -> bool) -> Option<Hit> {
-        self.among_instances::<false>(ray, accept)
-    }
-    /// Something that `accept` does not reject lies on the ray.
-    pub fn occluded_where(&self, ray: &Ray, accept: impl Fn(&Hit) -> bool) -> bool {
-        self.among_instances::<true>(ray, accept).is_some()
-    }
-    /// [`intersect`](Self::intersect) for each of `rays`, into as many places of `out`; what is longer is not looked at.
-    pub fn intersect_many(&self, rays: &[Ray], out: &mut [Option<Hit>]) {
-        let rays = &rays[..rays.len().min(out.len())];
-        if self.instances.len() > 0 {
-            rays.iter().zip(out).for_each(|(ray, out)| *out = self.intersect(ray));
-            return;
-        }
-        let put = |i: usize, raw: Option<RawHit>| out[i] = raw.map(|raw| self.bodies.to_hit(&raw));
-        self.bvh.hits::<false>(rays, &self.bodies, |_| true, put);
-    }
-    /// [`occluded`](Self::occluded) for each of `rays`, into as many places of `out`; what is longer is not looked at.
-    pub fn occluded_many(&self, rays: &[Ray], out: &mut [bool]) {
-        let rays = &rays[..rays.len().min(out.len())];
-        if self.instances.len() > 0 {
-            rays.iter().zip(out).for_each(|(ray, out)| *out = self.occluded(ray));
-            return;
-        }
-        self.bvh.hits::<true>(rays, &self.bodies, |_| true, |i, raw| out[i] = raw.is_some());
-    }
-    fn among_instances<const ANY: bool>(&self, ray: &Ray, accept: impl Fn(&Hit) -> bool) -> Option<Hit> {
-        let (instances, first) = (&self.instances, self.first_instance);
-        let world = World { others: &self.bodies, instances, first, current: Cell::new(None) };
-        let best = Cell::new(None);
-        let accept = |raw: &RawHit| {
-            let hit = Hit { instance: world.current.get(), ..self.bodies.to_hit(raw) };
-            let accepted = accept(&hit);
-            if accepted {
-                best.set(Some(hit));
-            }
-            accepted
-        };
-        self.bvh.hit::<ANY>(ray, &world, accept);
-        best.get()
-    }
     /// The surface at `hit`, which this geometry gave for `ray`.
     ///
     /// Panics for a hit of another geometry, or returns nonsense.

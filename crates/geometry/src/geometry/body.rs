@@ -1,0 +1,172 @@
+//! Shapes ready to be asked, of all kinds in one list: [`Bodies`].
+
+use rayon::prelude::*;
+use sparrow_math::Aabb;
+
+use crate::bvh::{Kind, MAX_PRIMS, Others, PrimRef, RawHit};
+use crate::curve::Curves;
+use crate::patch::Patches;
+use crate::quadric::Quadric;
+use crate::ray::{Hit, Ray};
+use crate::shape::{Shape, ShapeInstance};
+use crate::triangle::Triangles;
+
+/// A shape ready to be asked.
+#[derive(Debug)]
+pub(super) enum Body {
+    Triangles(Triangles),
+    Patches(Patches),
+    Curves(Curves),
+    /// `None` where nothing of it can be hit.
+    Quadric(Option<Box<Quadric>>),
+}
+
+impl Body {
+    pub(super) fn new(s: ShapeInstance) -> Body {
+        match s.shape {
+            Shape::Triangles(m) => Body::Triangles(Triangles::new(m, s.flip_normal)),
+            Shape::Patches(m) => Body::Patches(Patches::new(m, s.flip_normal)),
+            Shape::Curves(c) => Body::Curves(Curves::new(c)),
+            quadric @ (Shape::Sphere { .. } | Shape::Disk { .. } | Shape::Cylinder { .. }) => {
+                Body::Quadric(Quadric::new(&quadric, &s.to_world, s.flip_normal).map(Box::new))
+            }
+        }
+    }
+    pub(super) fn n_prims(&self) -> usize {
+        match self {
+            Body::Triangles(m) => m.len(),
+            Body::Patches(m) => m.len(),
+            Body::Curves(c) => c.len(),
+            Body::Quadric(_) => 1,
+        }
+    }
+    /// Numbers the tree sets aside.
+    fn n_ids(&self) -> usize {
+        match self {
+            Body::Triangles(m) => m.len(),
+            Body::Patches(m) => 2 * m.len(),
+            Body::Curves(c) => c.n_ids(),
+            Body::Quadric(_) => 1,
+        }
+    }
+    pub(super) fn bytes(&self) -> usize {
+        match self {
+            Body::Triangles(m) => m.bytes(),
+            Body::Patches(m) => m.bytes(),
+            Body::Curves(c) => c.bytes(),
+            Body::Quadric(_) => size_of::<Quadric>(),
+        }
+    }
+    /// What the tree holds of this shape, numbered from `first`; and how many of its primitives that leaves out.
+    fn refs(&self, first: u32, out: &mut Vec<PrimRef>) -> usize {
+        let before = out.len();
+        match self {
+            Body::Triangles(m) => {
+                let one = |i: u32| m.bounds(i).map(|b| PrimRef::new(first + i, b, Kind::Triangles));
+                out.par_extend((0..m.len() as u32).into_par_iter().filter_map(one));
+                m.len() - (out.len() - before)
+            }
+            Body::Patches(m) => {
+                let mut dropped = 0;
+                for i in 0..m.len() as u32 {
+                    let parts = m.parts(i);
+                    dropped += usize::from(parts.is_empty());
+                    out.extend(parts.iter().map(|&(id, b, other)| {
+                        PrimRef::new(first + id, b, if other { Kind::Others } else { Kind::Triangles })
+                    }));
+                }
+                dropped
+            }
+            Body::Curves(c) => {
+                let block = |(i, &b): (usize, &Aabb)| PrimRef::new(first + i as u32, b, Kind::Others);
+                out.extend(c.blocks().iter().enumerate().map(block));
+                c.dropped()
+            }
+            Body::Quadric(Some(q)) => {
+                out.push(PrimRef::new(first, q.bounds(), Kind::Others));
+                0
+            }
+            Body::Quadric(None) => 1,
+        }
+    }
+}
+
+/// The shapes, and which numbers the tree gave to each.
+#[derive(Debug)]
+pub(super) struct Bodies {
+    pub(super) bodies: Vec<Body>,
+    /// The first number of each shape.
+    first: Vec<u32>,
+}
+
+impl Bodies {
+    /// Numbers what the tree may hold of all shapes; gives how many numbers that takes. A shape for which there are none left
+    /// gets none.
+    pub(super) fn new(bodies: Vec<Body>) -> (Bodies, usize) {
+        let mut next = 0;
+        let number = |b: &Body| {
+            let first = next;
+            if next + b.n_ids() <= MAX_PRIMS {
+                next += b.n_ids();
+            }
+            first as u32
+        };
+        let first = bodies.iter().map(number).collect();
+        (Bodies { bodies, first }, next)
+    }
+    /// What a tree over some of the shapes holds, and how many of their primitives that leaves out.
+    pub(super) fn refs(&self, shapes: core::ops::Range<usize>) -> (Vec<PrimRef>, usize) {
+        let (mut refs, mut dropped) = (Vec::new(), 0);
+        for (body, &first) in self.bodies[shapes.clone()].iter().zip(&self.first[shapes]) {
+            if first as usize + body.n_ids() <= MAX_PRIMS {
+                dropped += body.refs(first, &mut refs);
+            } else {
+                dropped += body.n_prims();
+            }
+        }
+        (refs, dropped)
+    }
+    /// The shape that a number of the tree belongs to, and the number within it.
+    #[inline]
+    fn locate(&self, id: u32) -> (u32, u32) {
+        let shape = self.first.partition_point(|&f| f <= id) - 1;
+        (shape as u32, id - self.first[shape])
+    }
+    pub(super) fn corners(&self, id: u32) -> [[f32; 3]; 3] {
+        let (shape, local) = self.locate(id);
+        match &self.bodies[shape as usize] {
+            Body::Triangles(m) => m.raw_corners(local),
+            Body::Patches(m) => m.triangle(local),
+            Body::Curves(_) | Body::Quadric(_) => [[f32::NAN; 3]; 3],
+        }
+    }
+    /// What the world knows of a point the tree found.
+    #[inline]
+    pub(super) fn to_hit(&self, raw: &RawHit) -> Hit {
+        let (shape, local) = self.locate(raw.id);
+        let (prim, [u, v]) = match &self.bodies[shape as usize] {
+            Body::Triangles(_) | Body::Curves(_) => (local, [raw.u, raw.v]),
+            Body::Patches(m) => (local / 2, m.parameters(local, raw)),
+            Body::Quadric(_) => (0, [0.0; 2]),
+        };
+        Hit { t: raw.t, shape, prim, u, v, instance: None }
+    }
+}
+
+impl Others for Bodies {
+    fn hit(&self, id: u32, ray: &Ray, t_max: f32, found: &mut impl FnMut(RawHit) -> f32) -> f32 {
+        let (shape, local) = self.locate(id);
+        match &self.bodies[shape as usize] {
+            Body::Patches(m) => m.hit(id, local, ray, t_max, found),
+            Body::Curves(c) => c.hit(id - local, local, ray, t_max, found),
+            Body::Quadric(Some(q)) => q.hit(id, ray, t_max, found),
+            Body::Triangles(_) | Body::Quadric(None) => t_max,
+        }
+    }
+    fn ahead(&self, id: u32) {
+        let (shape, local) = self.locate(id);
+        if let Body::Curves(c) = &self.bodies[shape as usize] {
+            c.ahead(local);
+        }
+    }
+}

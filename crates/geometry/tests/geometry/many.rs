@@ -1,0 +1,153 @@
+//! Lists of rays give what the rays give one by one, to the bit.
+
+use sparrow_geometry::{
+    BilinearMesh, CurveBasis, CurveKind, CurveSet, Geometry, Hit, Instance, Ray, Shape, ShapeInstance,
+};
+use sparrow_math::{Transform, Vec3, vec3};
+
+use super::{Rng, at, patches, placed, quadrics, sphere, triangles};
+
+/// A box without a front, a lamp, a block on the floor whose lowest face lies in it, and two balls.
+fn room() -> Vec<ShapeInstance> {
+    let mut mesh = BilinearMesh::default();
+    let mut quad = |o: [f32; 3], e: [f32; 3], f: [f32; 3]| {
+        let (o, e, f) = (Vec3::from(o), Vec3::from(e), Vec3::from(f));
+        let n = mesh.p.len() as u32;
+        mesh.p.extend([o, o + e, o + f, o + e + f].map(Vec3::to_array));
+        mesh.indices.push([n, n + 1, n + 2, n + 3]);
+    };
+    let (x, y, z) = ([2.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 2.0]);
+    quad([-1.0, 0.0, -1.0], z, x);
+    quad([-1.0, 2.0, -1.0], x, z);
+    quad([-1.0, 0.0, -1.0], x, y);
+    quad([-1.0, 0.0, -1.0], y, z);
+    quad([1.0, 0.0, -1.0], z, y);
+    quad([-0.3, 1.998, -0.3], [0.6, 0.0, 0.0], [0.0, 0.0, 0.6]);
+    let (x, y, z) = ([0.5, 0.0, 0.125], [0.0, 0.75, 0.0], [-0.125, 0.0, 0.5]);
+    quad([-0.75, 0.0, -0.5], x, z);
+    quad([-0.75, 0.75, -0.5], x, z);
+    quad([-0.75, 0.0, -0.5], x, y);
+    quad([-0.75, 0.0, -0.5], y, z);
+    let ball = |p: Vec3<f64>, r: f32| at(sphere(r), Transform::translate(p));
+    let mut shapes = vec![placed(Shape::Patches(mesh))];
+    shapes.push(ball(vec3(-0.42, 0.45, -0.25), 0.45));
+    shapes.push(ball(vec3(0.45, 0.36, 0.3), 0.36));
+    shapes
+}
+
+/// Rays of every sort: from far and near, along axes, through corners and edges, short, backwards, and not finite.
+fn rays(rng: &mut Rng, n: usize) -> Vec<Ray> {
+    let grid = |rng: &mut Rng| Vec3::from(rng.point().map(|x| (x * 4.0).round() * 0.25));
+    let one = |i: usize| {
+        let (mut o, mut p) = (Vec3::from(rng.point()) * 3.0, Vec3::from(rng.point()) + vec3(0.0, 1.0, 0.0));
+        if i % 3 == 0 {
+            p = grid(rng);
+        }
+        if i % 7 == 0 {
+            o = grid(rng);
+        }
+        let mut ray = Ray::new(o, (p - o) * rng.between(0.1, 3.0));
+        match i % 23 {
+            0 => ray.d.x = 0.0,
+            1 => (ray.d.y, ray.d.z) = (0.0, -0.0),
+            2 => ray.t_max = rng.between(-0.5, 2.0),
+            3 => ray.t_max = 1.0,
+            4 if i % 5 == 0 => ray.o.y = f32::NAN,
+            5 if i % 5 == 0 => ray.d = Vec3::splat(0.0),
+            6 if i % 5 == 0 => ray.t_max = f32::NAN,
+            7 if i % 5 == 0 => ray.d.z = f32::INFINITY,
+            _ => {}
+        }
+        ray
+    };
+    (0..n).map(one).collect()
+}
+
+fn bits(h: Option<Hit>) -> Option<([u32; 5], Option<u32>)> {
+    h.map(|h| ([h.t.to_bits(), h.shape, h.prim, h.u.to_bits(), h.v.to_bits()], h.instance))
+}
+
+/// All forms, in lists of many lengths.
+fn compare(name: &str, g: &Geometry, rays: &[Ray]) {
+    let mut hits = 0;
+    let mut rest = rays;
+    for n in (0..40).cycle() {
+        let list;
+        (list, rest) = rest.split_at(n.min(rest.len()));
+        let (mut found, mut any) = (vec![None; n], vec![false; n]);
+        g.intersect_many(list, &mut found);
+        g.occluded_many(list, &mut any);
+        let accept = |i: usize, h: &Hit| (h.prim as usize + i) % 3 != 0;
+        let (mut found_where, mut any_where) = (vec![None; n], vec![false; n]);
+        g.intersect_many_where(list, &mut found_where, accept);
+        g.occluded_many_where(list, &mut any_where, accept);
+        for (i, ray) in list.iter().enumerate() {
+            assert_eq!(bits(found[i]), bits(g.intersect(ray)), "{name}: {ray:?}");
+            assert_eq!(any[i], g.occluded(ray), "{name}: {ray:?}");
+            assert_eq!(
+                bits(found_where[i]),
+                bits(g.intersect_where(ray, |h| accept(i, h))),
+                "{name}: {ray:?}"
+            );
+            assert_eq!(any_where[i], g.occluded_where(ray, |h| accept(i, h)), "{name}: {ray:?}");
+            hits += usize::from(any[i]);
+        }
+        if rest.is_empty() {
+            break;
+        }
+    }
+    assert!(hits * 10 > rays.len() && hits < rays.len(), "{name}: {hits} of {} hit", rays.len());
+}
+
+#[test]
+fn of_a_small_room() {
+    let rays = rays(&mut Rng(31), 60_000);
+    compare("room", &Geometry::build(room()), &rays);
+}
+
+/// A few triangles, patches and quadrics, so that some trees have one node and others more.
+#[test]
+fn of_few_shapes() {
+    let mut rng = Rng(32);
+    for n in 1..12 {
+        let mut shapes = vec![triangles(&mut rng, 3 * n, 0.9), patches(&mut rng, n / 2, 0.8)];
+        shapes.extend(quadrics(&mut rng, 1.0).into_iter().take(n as usize % 5));
+        let rays = rays(&mut rng, 5_000);
+        compare("few", &Geometry::build(shapes), &rays);
+    }
+}
+
+#[test]
+fn of_many_shapes_curves_and_instances() {
+    let mut rng = Rng(33);
+    let rays = rays(&mut rng, 10_000);
+    compare("soup", &Geometry::build(vec![triangles(&mut rng, 3_000, 0.2)]), &rays);
+    let points = (0..40).map(|_| rng.point()).map(|[x, y, z]| [x, y, z, 0.1]).collect();
+    let curves = CurveSet {
+        points,
+        strands: vec![0, 20],
+        basis: CurveBasis::BSpline,
+        kind: CurveKind::Round,
+        ..CurveSet::default()
+    };
+    let mut shapes = room();
+    shapes.push(placed(Shape::Curves(curves)));
+    compare("curves", &Geometry::build(shapes), &rays);
+    let to_world = [[0.5, 0.1, 0.0, 0.2], [0.0, 0.4, 0.0, 0.3], [0.0, 0.0, -0.6, 0.1]];
+    let instances = vec![Instance { to_world, prototype: 0 }];
+    compare("instances", &Geometry::build_instanced(room(), vec![room()], instances), &rays);
+}
+
+/// What is longer is left alone.
+#[test]
+fn of_other_lengths() {
+    let g = Geometry::build(room());
+    let rays = rays(&mut Rng(34), 20);
+    let (mut found, mut any) = (vec![None; 25], vec![true; 25]);
+    g.intersect_many(&rays, &mut found);
+    g.occluded_many(&rays, &mut any);
+    assert!(any[20..].iter().all(|&x| x) && any[..20].iter().any(|&x| !x));
+    let mut short = vec![None; 11];
+    g.intersect_many(&rays, &mut short);
+    assert_eq!(short, found[..11]);
+}
