@@ -47,6 +47,10 @@ impl RealSource {
 }
 
 impl SpectrumSource {
+    /// It varies neither over the surface nor with a path's wavelengths.
+    fn is_constant(&self) -> bool {
+        matches!(self, SpectrumSource::Value(SceneSpectrum::Constant(_) | SceneSpectrum::Channels(_)))
+    }
     #[inline]
     fn at(&self, textures: &Textures, ctx: &TextureContext, w: &Wavelengths) -> Spectrum<f32> {
         match self {

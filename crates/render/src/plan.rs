@@ -51,6 +51,11 @@ impl FilmSensor {
         self.carrier.wavelengths(u)
     }
 
+    /// [`wavelengths`](Self::wavelengths) of each of `u`, added to `out`.
+    pub(crate) fn wavelengths_many(&self, u: &[f32], out: &mut Vec<Wavelengths>) {
+        self.carrier.wavelengths_many(u, out);
+    }
+
     /// Linear RGB of the output colour space, for one sample.
     #[inline]
     pub fn rgb(&self, l: Spectrum<f32>, w: &Wavelengths) -> [f32; 3] {
@@ -102,6 +107,12 @@ impl RenderPlan {
             samples_per_pixel: sampler.samples_per_pixel(),
             sampler,
         })
+    }
+
+    /// A pixel of the part that is rendered, counted in the full picture.
+    #[inline]
+    pub(crate) fn in_full_picture(&self, pixel: [u32; 2]) -> [u32; 2] {
+        [pixel[0] + self.bounds[0], pixel[1] + self.bounds[2]]
     }
 
     /// Width and height of the part that is rendered.

@@ -8,7 +8,7 @@ use std::time::Instant;
 use rayon::prelude::*;
 
 use crate::film::Film;
-use crate::integrator::{Block, CameraSample, Exposed, RayCounts};
+use crate::integrator::{Block, CameraNumbers, CameraSample, Exposed, RayCounts};
 use crate::observe::{Observer, TileObserver};
 use crate::plan::RenderPlan;
 use crate::render::{Progress, RenderError, RenderOptions, RenderStats};
@@ -49,6 +49,36 @@ pub(crate) struct Job<'a, O = ()> {
     pub(crate) exposure: &'a Exposure<'a, O>,
     pub(crate) origin: [u32; 2],
     pub(crate) samples: Range<u32>,
+}
+
+/// The samples of all pixels of a tile, pixel by pixel.
+struct Samples {
+    first: [u32; 2],
+    width: u32,
+    height: u32,
+    samples: Range<u32>,
+    /// Sample, column and row of what comes next, from the first of each.
+    next: [u32; 3],
+}
+
+impl Iterator for Samples {
+    type Item = ([u32; 2], u32);
+    #[inline]
+    fn next(&mut self) -> Option<([u32; 2], u32)> {
+        let [sample, x, y] = &mut self.next;
+        if *y == self.height || self.samples.is_empty() {
+            return None;
+        }
+        let item = ([self.first[0] + *x, self.first[1] + *y], self.samples.start + *sample);
+        *sample += 1;
+        if self.samples.start + *sample == self.samples.end {
+            (*sample, *x) = (0, *x + 1);
+        }
+        if *x == self.width {
+            (*x, *y) = (0, *y + 1);
+        }
+        Some(item)
+    }
 }
 
 /// State that all threads share.
@@ -148,13 +178,18 @@ impl<'a> Run<'a> {
     }
 
     /// Paths one after the other, by the readable loop.
-    fn one_by_one<'b, T: TileObserver>(
+    fn one_by_one<T: TileObserver>(
         &self,
-        starts: impl Iterator<Item = CameraSample<'b>>,
+        sampler: &Sampler,
+        samples: impl Iterator<Item = ([u32; 2], u32)>,
         tile: &mut Exposed<'_, T>,
     ) -> RayCounts {
         let mut rays = RayCounts::default();
-        for CameraSample { place, mut sampler, mut lambda, ray } in starts {
+        for (pixel, sample) in samples {
+            let mut sampler = sampler.start(self.plan.in_full_picture(pixel), sample);
+            let numbers = CameraNumbers::new(&sampler);
+            let CameraSample { place, mut lambda, ray } =
+                CameraSample::new(self.scene, self.plan, pixel, &numbers);
             let mut record = T::Record::default();
             let integrator = &self.plan.integrator;
             let l = integrator.radiance(self.scene, ray, &mut lambda, &mut sampler, &mut rays, &mut record);
@@ -175,14 +210,12 @@ impl<'a> Run<'a> {
         let observer = exposure.observer.tile(*origin, [TILE, TILE]);
         let [w, h] = film.size();
         let mut tile = Exposed { plan: self.plan, film, observer };
-        let pixels = (origin[1]..origin[1] + h).flat_map(|y| (origin[0]..origin[0] + w).map(move |x| [x, y]));
-        let starts = pixels.flat_map(|pixel| samples.clone().map(move |sample| (pixel, sample)));
-        let mut starts = starts
-            .map(|(pixel, sample)| CameraSample::new(self.scene, self.plan, exposure.sampler, pixel, sample));
+        let mut each =
+            Samples { first: *origin, width: w, height: h, samples: samples.clone(), next: [0; 3] };
         let rays = if self.plan.one_by_one {
-            self.one_by_one(starts, &mut tile)
+            self.one_by_one(exposure.sampler, each, &mut tile)
         } else {
-            block.render(self.scene, &mut starts, &mut tile)
+            block.render(self.scene, exposure.sampler, &mut each, &mut tile)
         };
         exposure.film().absorb(&tile.film)?;
         exposure.observer.absorb(&tile.observer)?;

@@ -8,7 +8,7 @@ mod start;
 pub(crate) use block::{Block, Column, pad};
 pub use path::PathIntegrator;
 pub use record::{Finder, Record};
-pub(crate) use start::{CameraSample, Exposed};
+pub(crate) use start::{CameraNumbers, CameraSample, Exposed};
 
 /// Rays traced, by kind.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -1,12 +1,13 @@
 //! Where a path begins and what becomes of its light: [`CameraSample`], [`Exposed`].
 
 use sparrow_geometry::Ray;
+use sparrow_math::Real;
 use sparrow_spectra::{Spectrum, Wavelengths};
 
 use crate::film::FilmTile;
 use crate::observe::{Sample, TileObserver};
 use crate::plan::RenderPlan;
-use crate::sampler::{PixelSampler, Sampler};
+use crate::sampler::PixelSampler;
 use crate::scene::Scene;
 
 /// The place of a camera sample on the film.
@@ -18,35 +19,57 @@ pub(crate) struct FilmPlace {
     pub(crate) weight: f32,
 }
 
+/// The uniform numbers of a camera sample.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct CameraNumbers {
+    pub(crate) wavelength: f32,
+    pub(crate) time: f32,
+    /// For the filter.
+    pub(crate) pixel: [f32; 2],
+    pub(crate) lens: [f32; 2],
+}
+
+impl CameraNumbers {
+    /// Dimensions of the sampler: wavelength, time, lens.
+    pub(super) const DIMENSIONS: [u32; 3] = [0, 1, 2];
+
+    /// Of one pixel sample.
+    pub(crate) fn new(sampler: &PixelSampler<'_>) -> CameraNumbers {
+        let [wavelength, time, lens] = Self::DIMENSIONS.map(|d| sampler.at(d));
+        CameraNumbers {
+            wavelength: { wavelength }.get_1d(),
+            time: { time }.get_1d(),
+            pixel: { *sampler }.get_pixel_2d(),
+            lens: { lens }.get_2d(),
+        }
+    }
+}
+
 /// A path before its first ray is traced.
-pub(crate) struct CameraSample<'a> {
+pub(crate) struct CameraSample {
     pub(crate) place: FilmPlace,
-    pub(crate) sampler: PixelSampler<'a>,
     pub(crate) lambda: Wavelengths,
     pub(crate) ray: Ray,
 }
 
-impl<'a> CameraSample<'a> {
-    /// Wavelengths, time, place on film and lens of one sample of a pixel of the film's window.
+impl CameraSample {
+    /// Wavelengths, time, place on film and lens of a sample of a pixel of the film's window.
     #[inline]
-    pub(crate) fn new(
-        scene: &Scene,
-        plan: &RenderPlan,
-        sampler: &'a Sampler,
-        pixel: [u32; 2],
-        sample: u32,
-    ) -> CameraSample<'a> {
-        let [x, y] = [pixel[0] + plan.bounds[0], pixel[1] + plan.bounds[2]];
-        let mut sampler = sampler.start([x, y], sample);
-        let lambda = plan.sensor.wavelengths(sampler.get_1d());
-        let time = if scene.moves { scene.camera.time(sampler.get_1d()) } else { 0.0 };
-        let f = plan.filter.sample(sampler.get_pixel_2d());
-        sampler.set_dimension(2);
-        let lens = sampler.get_2d();
-        let film = [x as f32 + 0.5 + f.offset[0], y as f32 + 0.5 + f.offset[1]];
-        let ray = scene.camera.ray(film, lens, time);
-        CameraSample { place: FilmPlace { pixel, weight: f.weight }, sampler, lambda, ray }
+    pub(crate) fn new(scene: &Scene, plan: &RenderPlan, pixel: [u32; 2], u: &CameraNumbers) -> CameraSample {
+        let lambda = plan.sensor.wavelengths(u.wavelength);
+        let time = if scene.moves { scene.camera.time(u.time) } else { 0.0 };
+        let (film, weight) = film_point(plan, plan.in_full_picture(pixel).map(|x| x as f32), u.pixel);
+        let ray = scene.camera.ray(film, u.lens, time);
+        CameraSample { place: FilmPlace { pixel, weight }, lambda, ray }
     }
+}
+
+/// A point on the film for a pixel of the full picture, and the filter's weight.
+#[inline(always)]
+pub(super) fn film_point<R: Real>(plan: &RenderPlan, pixel: [R; 2], u: [R; 2]) -> ([R; 2], R) {
+    let f = plan.filter.sample(u);
+    let half = R::of(0.5);
+    ([pixel[0] + half + f.offset[0], pixel[1] + half + f.offset[1]], f.weight)
 }
 
 /// A tile of the film with who looks on.

@@ -4,9 +4,8 @@ use sparrow_models::batch::ParamColumns;
 use sparrow_models::{MAX_CHOICES, MAX_REALS, MAX_SPECTRA};
 use sparrow_spectra::{N_LAMBDA, Wavelengths};
 
-use super::{Material, RealSource, SpectrumSource};
+use super::{Material, RealSource};
 use crate::integrator::{Column, pad};
-use crate::spectrum::SceneSpectrum;
 use crate::texture::{TextureContext, Textures};
 
 /// What parameters depend on, point by point.
@@ -25,6 +24,8 @@ pub(crate) struct MaterialColumns {
     /// Numbers in each column that count: none, one, or one for each point.
     n_reals: [usize; MAX_REALS],
     n_spectra: [usize; MAX_SPECTRA],
+    /// The same for wavelengths.
+    n_lambda: usize,
     choices: [u8; MAX_CHOICES],
 }
 
@@ -35,6 +36,7 @@ impl MaterialColumns {
         let none = TextureContext::default();
         let context = |k: usize| points.contexts.get(k).unwrap_or(&none);
         self.choices = material.choices;
+        self.n_lambda = if points.lambda.windows(2).all(|w| w[0].lambda == w[1].lambda) { 1 } else { n };
         self.n_reals = [0; MAX_REALS];
         self.n_spectra = [0; MAX_SPECTRA];
         for ((column, count), source) in self.reals.iter_mut().zip(&mut self.n_reals).zip(&material.reals) {
@@ -46,8 +48,7 @@ impl MaterialColumns {
         }
         let columns = self.spectra.iter_mut().zip(&mut self.n_spectra);
         for ((columns, count), source) in columns.zip(&material.spectra) {
-            let constant = matches!(source, SpectrumSource::Value(SceneSpectrum::Constant(_)));
-            *count = if constant { 1 } else { n };
+            *count = if source.is_constant() { 1 } else { n };
             for k in 0..*count {
                 let s = source.at(textures, context(k), &points.lambda[k]);
                 columns.iter_mut().zip(s.0).for_each(|(column, v)| column[k] = v);
@@ -71,7 +72,11 @@ impl MaterialColumns {
         for ((slots, columns), &count) in params.spectra.iter_mut().zip(&self.spectra).zip(&self.n_spectra) {
             slots.iter_mut().zip(columns).for_each(|(slot, column)| *slot = &column[..shown(count)]);
         }
-        params.lambda.iter_mut().zip(lambda).for_each(|(slot, column)| *slot = &column[..n]);
+        params
+            .lambda
+            .iter_mut()
+            .zip(lambda)
+            .for_each(|(slot, column)| *slot = &column[..shown(self.n_lambda)]);
         params
     }
 }

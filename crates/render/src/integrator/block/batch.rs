@@ -13,6 +13,7 @@ use crate::integrator::PathIntegrator;
 use crate::integrator::path::{light_dimension, scatter_dimension};
 use crate::light::{LightSample, LitPoint};
 use crate::material::{MaterialColumns, Points};
+use crate::sampler::{PixelSampler, Sampler};
 use crate::scatter::{Density, Scatter, ScatterSample};
 use crate::scene::{Scene, fibre_offset};
 use crate::texture::TextureContext;
@@ -27,13 +28,16 @@ pub(super) fn key(material: u32, regularized: bool) -> u32 {
 
 /// Vertices of one material. Those that a light may reach come first.
 #[derive(Default)]
-pub(super) struct Batch {
+pub(super) struct Batch<'a> {
+    samplers: Vec<PixelSampler<'a>>,
     /// The path of each vertex.
     pub(super) path: Vec<u32>,
     /// Light samples of the first vertices.
     pub(super) lights: Vec<LightSample>,
-    /// Vertices without.
-    unlit: Vec<u32>,
+    /// Where the numbers of each vertex stand.
+    numbers_of: Vec<u32>,
+    /// Vertices without, and where their numbers stand.
+    unlit: Vec<(u32, u32)>,
     /// The models of vertices that are scattered one by one; empty where that is done in lanes.
     models: Vec<Scatter>,
     kind: Option<ModelKind>,
@@ -60,6 +64,7 @@ struct Columns {
     wi_light_local: [Column; 3],
     f_cos: [Column; N_LAMBDA],
     pdf: Column,
+    numbers: Numbers,
     u: [Column; 3],
     /// Where paths go on.
     wi_local: [Column; 3],
@@ -70,7 +75,31 @@ struct Columns {
     delta: Column,
 }
 
-impl Batch {
+/// The uniform numbers of vertices, in the order in which they came.
+#[derive(Default)]
+struct Numbers {
+    light: Column,
+    on_light: [Column; 2],
+    lobe: Column,
+    direction: [Column; 2],
+    roulette: Column,
+}
+
+impl<'a> Batch<'a> {
+    /// Draws the uniform numbers of each vertex.
+    pub(super) fn draw<R>(&mut self, sampler: &Sampler, paths: &Paths<'a, R>, vertices: &[u32]) {
+        self.samplers.clear();
+        self.samplers.extend(vertices.iter().map(|&i| paths.sampler[i as usize]));
+        let numbers = &mut self.columns.numbers;
+        let mut first = 0;
+        // Vertices come in the order of their depth.
+        for run in vertices.chunk_by(|&a, &b| paths.depth[a as usize] == paths.depth[b as usize]) {
+            let end = first + run.len();
+            numbers.fill(sampler, &self.samplers[first..end], paths.depth[run[0] as usize], first);
+            first = end;
+        }
+    }
+
     /// Draws a light for each vertex, and puts those first that got one.
     pub(super) fn sample_lights<R>(
         &mut self,
@@ -83,25 +112,28 @@ impl Batch {
         self.path.clear();
         self.lights.clear();
         self.unlit.clear();
-        for &path in vertices {
+        self.numbers_of.clear();
+        let Columns { numbers, wi_light, .. } = &mut *self.columns;
+        for (j, &path) in vertices.iter().enumerate() {
             let i = path as usize;
             let Some(point) = &points[i] else { continue };
-            let mut sampler = paths.sampler[i];
-            sampler.set_dimension(light_dimension(paths.depth[i]));
-            let turn = how.mis.turn(sampler.get_1d());
+            let turn = how.mis.turn(numbers.light[j]);
             paths.looks[i] = turn.bsdf;
             let at = LitPoint { p: point.p, n: point.ns };
-            let mut draw = || scene.sample_light(&at, turn.u, sampler.get_2d(), &paths.lambda[i]);
-            match turn.light.then(&mut draw).flatten() {
+            let u = numbers.on_light.each_ref().map(|c| c[j]);
+            let draw = || scene.sample_light(&at, turn.u, u, &paths.lambda[i]);
+            match turn.light.then(draw).flatten() {
                 Some(light) => {
-                    put_vector(&mut self.columns.wi_light, self.path.len(), light.wi);
+                    put_vector(wi_light, self.path.len(), light.wi);
                     self.lights.push(light);
                     self.path.push(path);
+                    self.numbers_of.push(j as u32);
                 }
-                None => self.unlit.push(path),
+                None => self.unlit.push((path, j as u32)),
             }
         }
-        self.path.append(&mut self.unlit);
+        self.path.extend(self.unlit.iter().map(|(path, _)| path));
+        self.numbers_of.extend(self.unlit.iter().map(|(_, j)| j));
     }
 
     /// Evaluates the parameters of the material, and turns directions to local frames.
@@ -160,12 +192,11 @@ impl Batch {
     /// The next direction of each path; the path ends where there is none, or where roulette says so.
     pub(super) fn scatter<R: Default>(&mut self, paths: &mut Paths<'_, R>, points: &[Option<SurfacePoint>]) {
         let columns = &mut self.columns;
-        for (k, &path) in self.path.iter().enumerate() {
-            let i = path as usize;
-            let sampler = &mut paths.sampler[i];
-            sampler.set_dimension(scatter_dimension(paths.depth[i]));
-            let (lobe, [u, v]) = (sampler.get_1d(), sampler.get_2d());
-            columns.u.iter_mut().zip([lobe, u, v]).for_each(|(column, u)| column[k] = u);
+        let numbers = &columns.numbers;
+        for (k, &j) in self.numbers_of.iter().enumerate() {
+            let [u, v] = &numbers.direction;
+            let three = [&numbers.lobe, u, v].map(|c| c[j as usize]);
+            columns.u.iter_mut().zip(three).for_each(|(column, u)| column[k] = u);
         }
         if let Some(kind) = self.kind {
             columns.sample(kind, self.path.len());
@@ -181,8 +212,24 @@ impl Batch {
             };
             paths.ended[i] = true;
             if let (Some(s), Some(point)) = (sample, &points[i]) {
-                paths.ended[i] = !paths.go_on(i, point, &s);
+                let u = columns.numbers.roulette[self.numbers_of[k] as usize];
+                paths.ended[i] = !paths.go_on(i, point, &s, u);
             }
+        }
+    }
+}
+
+impl Numbers {
+    /// Those of vertices of one depth, which stand from `first` on.
+    fn fill(&mut self, sampler: &Sampler, paths: &[PixelSampler<'_>], depth: u32, first: usize) {
+        let range = first..first + paths.len();
+        let (light, scatter) = (light_dimension(depth), scatter_dimension(depth));
+        sampler.fill_1d(paths, light, &mut self.light[range.clone()]);
+        sampler.fill_2d(paths, light + 1, self.on_light.each_mut().map(|c| &mut c[range.clone()]));
+        sampler.fill_1d(paths, scatter, &mut self.lobe[range.clone()]);
+        sampler.fill_2d(paths, scatter + 1, self.direction.each_mut().map(|c| &mut c[range.clone()]));
+        if depth > 0 {
+            sampler.fill_1d(paths, scatter + 3, &mut self.roulette[range]);
         }
     }
 }

@@ -47,6 +47,12 @@ pub(crate) fn pad(column: &mut Column, n: usize) {
     }
 }
 
+/// Reads a number, for one path or for lanes of them.
+#[inline(always)]
+pub(super) fn load<R: Real>(column: &Column, k: usize) -> R {
+    R::load(&column[..], k)
+}
+
 /// Writes a vector to columns.
 #[inline(always)]
 pub(super) fn put_vector(columns: &mut [Column; 3], k: usize, v: Vec3<f32>) {

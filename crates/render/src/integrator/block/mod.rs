@@ -8,6 +8,7 @@
 
 mod batch;
 mod column;
+mod fresh;
 mod groups;
 mod lanes;
 mod paths;
@@ -18,11 +19,14 @@ use sparrow_geometry::{Hit, SurfacePoint};
 use self::batch::Batch;
 use self::column::BATCH;
 pub(crate) use self::column::{Column, pad};
+use self::fresh::Fresh;
 use self::groups::Groups;
 use self::paths::Paths;
 use self::shadow::Shadows;
-use super::{CameraSample, Exposed, Finder, PathIntegrator, RayCounts, Record};
+use super::{Exposed, Finder, PathIntegrator, RayCounts, Record};
 use crate::observe::TileObserver;
+use crate::plan::RenderPlan;
+use crate::sampler::Sampler;
 use crate::scene::Scene;
 
 /// Paths under way at once: enough to fill the lanes of several materials, few enough for the second cache.
@@ -30,11 +34,12 @@ const N_PATHS: usize = 1024;
 
 /// Paths side by side, and room for what happens at their vertices.
 pub(crate) struct Block<'a, R> {
+    fresh: Fresh<'a>,
     paths: Paths<'a, R>,
     hits: Vec<Option<Hit>>,
     points: Vec<Option<SurfacePoint>>,
     groups: Groups,
-    batch: Batch,
+    batch: Batch<'a>,
     shadows: Shadows,
     rays: RayCounts,
 }
@@ -42,6 +47,7 @@ pub(crate) struct Block<'a, R> {
 impl<R: Record + Default> Default for Block<'_, R> {
     fn default() -> Self {
         Block {
+            fresh: Fresh::default(),
             paths: Paths::default(),
             hits: Vec::new(),
             points: Vec::new(),
@@ -54,20 +60,22 @@ impl<R: Record + Default> Default for Block<'_, R> {
 }
 
 impl<'a, R: Record + Default> Block<'a, R> {
-    /// Follows a path from each of `starts` and hands its light to `tile`. Says how many rays that took.
+    /// Follows a path from each of `samples`, a pixel and a number, and hands its light to `tile`. Says how many rays that took.
     pub(crate) fn render<T: TileObserver<Record = R>>(
         &mut self,
         scene: &Scene,
-        starts: &mut impl Iterator<Item = CameraSample<'a>>,
+        sampler: &'a Sampler,
+        samples: &mut impl Iterator<Item = ([u32; 2], u32)>,
         tile: &mut Exposed<'_, T>,
     ) -> RayCounts {
         let how = tile.plan.integrator;
-        while self.generate(starts) {
+        while self.generate(scene, tile.plan, sampler, samples) {
             self.intersect(scene);
             self.emitted(scene, &how);
             self.group(scene, &how);
             for i in 0..self.groups.len() {
                 let (key, paths) = self.groups.batch(i);
+                self.batch.draw(sampler, &self.paths, paths);
                 self.batch.sample_lights(scene, &how, &mut self.paths, &self.points, paths);
                 self.batch.bind(scene, &mut self.paths, &self.points, key);
                 self.batch.f_cos_pdf();
@@ -82,10 +90,22 @@ impl<'a, R: Record + Default> Block<'a, R> {
     }
 
     /// Fills the block with new paths; false where none is under way.
-    fn generate(&mut self, starts: &mut impl Iterator<Item = CameraSample<'a>>) -> bool {
+    fn generate(
+        &mut self,
+        scene: &Scene,
+        plan: &RenderPlan,
+        sampler: &'a Sampler,
+        samples: &mut impl Iterator<Item = ([u32; 2], u32)>,
+    ) -> bool {
         let before = self.paths.len();
-        for start in starts.take(N_PATHS - before) {
-            self.paths.push(start);
+        while self.paths.len() < N_PATHS {
+            let room = N_PATHS - self.paths.len();
+            if !self.fresh.draw(scene, sampler, plan, &mut samples.take(room)) {
+                break;
+            }
+            for (sampler, sample) in self.fresh.iter(scene, plan) {
+                self.paths.push(sampler, sample);
+            }
         }
         self.rays.camera += (self.paths.len() - before) as u64;
         self.paths.len() > 0
@@ -123,7 +143,7 @@ impl<'a, R: Record + Default> Block<'a, R> {
             match scene.material_of(point) {
                 Some(material) => {
                     let regularized = how.regularize && n_smooth > 0;
-                    self.groups.push(batch::key(material, regularized), i as u32);
+                    self.groups.push(batch::key(material, regularized), depth, i as u32);
                 }
                 None => paths.ray[i] = point.spawn(paths.ray[i].d),
             }

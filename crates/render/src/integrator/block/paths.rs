@@ -55,9 +55,9 @@ impl<'a, R: Default> Paths<'a, R> {
     }
 
     /// A new path.
-    pub(super) fn push(&mut self, start: CameraSample<'a>) {
+    pub(super) fn push(&mut self, sampler: PixelSampler<'a>, start: CameraSample) {
         self.place.push(start.place);
-        self.sampler.push(start.sampler);
+        self.sampler.push(sampler);
         self.lambda.push(start.lambda);
         self.ray.push(start.ray);
         self.l.push(Spectrum::ZERO);
@@ -88,9 +88,9 @@ impl<'a, R: Default> Paths<'a, R> {
         self.record.swap_remove(i);
     }
 
-    /// Takes path `i` from `point` along a sampled direction; false where roulette ends it.
+    /// Takes path `i` from `point` along a sampled direction; false where roulette ends it, by the uniform number `u`.
     #[inline]
-    pub(super) fn go_on(&mut self, i: usize, point: &SurfacePoint, s: &ScatterSample) -> bool {
+    pub(super) fn go_on(&mut self, i: usize, point: &SurfacePoint, s: &ScatterSample, u: f32) -> bool {
         let beta = &mut self.beta[i];
         *beta *= s.weight;
         self.eta_scale[i] *= s.eta * s.eta;
@@ -107,7 +107,7 @@ impl<'a, R: Default> Paths<'a, R> {
 
         let survival = roulette((*beta * self.eta_scale[i]).max_value());
         if survival < 1.0 && self.depth[i] > 1 {
-            if self.sampler[i].get_1d() >= survival {
+            if u >= survival {
                 return false;
             }
             *beta *= 1.0 / survival;

@@ -33,7 +33,7 @@ impl Shadows {
     pub(super) fn push<R>(
         &mut self,
         how: &PathIntegrator,
-        batch: &Batch,
+        batch: &Batch<'_>,
         paths: &Paths<'_, R>,
         points: &[Option<SurfacePoint>],
     ) {
