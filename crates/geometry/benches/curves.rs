@@ -12,6 +12,7 @@
 mod embree;
 #[cfg(target_os = "linux")]
 #[path = "rays/race.rs"]
+#[allow(dead_code, reason = "lists of rays are not timed here")]
 mod race;
 #[cfg(target_os = "linux")]
 #[allow(dead_code, reason = "bounces of triangles are not wanted here")]

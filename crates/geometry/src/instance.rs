@@ -141,14 +141,57 @@ fn padded(b: &Aabb, n: u32) -> Option<Aabb> {
     (lo.is_finite() && hi.is_finite()).then_some(Aabb { lo, hi })
 }
 
-impl MovingInstance {
+/// The way back of what only shifts: the same map at all times, but for its translation.
+#[derive(Clone, Copy, Debug)]
+struct Shift {
+    start: Rows<f64>,
+    /// What is added to the translation from start to end.
+    by: [f64; 3],
+}
+
+impl Shift {
+    /// `None` where the motion turns or stretches, or has no inverse.
+    fn of(motion: &Motion) -> Option<Shift> {
+        let (start, end) = (motion.at(0.0), motion.at(1.0));
+        let linear = |m: &Rows<f64>| m.map(|[a, b, c, _]| [a, b, c]);
+        if linear(&start) != linear(&end) {
+            return None;
+        }
+        let (start, end) = (inverse(&start)?, inverse(&end)?);
+        Some(Shift { start, by: [0, 1, 2].map(|i: usize| end[i][3] - start[i][3]) })
+    }
+    fn at(&self, time: f32, prototype: u32) -> Placed {
+        let mut to_local = self.start.map(|r| r.map(|x| x as f32));
+        for ((row, start), by) in to_local.iter_mut().zip(&self.start).zip(self.by) {
+            row[3] = (start[3] + by * f64::from(time)) as f32;
+        }
+        Placed { to_local, prototype }
+    }
+}
+
+/// A moving instance as rays need it.
+#[derive(Clone, Copy, Debug)]
+struct Moving {
+    instance: MovingInstance,
+    /// Spares every ray an inversion.
+    shift: Option<Shift>,
+}
+
+impl Moving {
+    fn new(instance: MovingInstance) -> Moving {
+        Moving { instance, shift: Shift::of(&instance.motion) }
+    }
     fn at(&self, time: f32) -> Placed {
-        Placed::new(&self.motion.at(f64::from(time)), self.prototype)
+        let MovingInstance { motion, prototype } = &self.instance;
+        match &self.shift {
+            Some(shift) => shift.at(time, *prototype),
+            None => Placed::new(&motion.at(f64::from(time)), *prototype),
+        }
     }
     /// The box around all places of a box in the prototype's space; `None` where it is not finite.
     fn bounds(&self, b: &Aabb) -> Option<Aabb> {
         // The way back is rounded anew at every time, on top of the roundings of a ray that is mapped.
-        padded(&self.motion.bounds(b), 64).filter(|_| !b.is_empty())
+        padded(&self.instance.motion.bounds(b), 64).filter(|_| !b.is_empty())
     }
 }
 
@@ -157,7 +200,7 @@ impl MovingInstance {
 pub(crate) struct Instances {
     prototypes: Vec<Bvh>,
     placed: Vec<Placed>,
-    moving: Vec<MovingInstance>,
+    moving: Vec<Moving>,
 }
 
 impl Instances {
@@ -167,6 +210,7 @@ impl Instances {
         moving: Vec<MovingInstance>,
     ) -> Instances {
         let place = |i: Instance| Placed::new(&i.to_world.map(|r| r.map(f64::from)), i.prototype);
+        let moving = moving.into_par_iter().map(Moving::new).collect();
         Instances { prototypes, placed: instances.into_par_iter().map(place).collect(), moving }
     }
     pub(crate) fn len(&self) -> usize {
@@ -188,7 +232,7 @@ impl Instances {
                 Some(placed) => placed.bounds(&of(placed.prototype)?)?,
                 None => {
                     let moving = &self.moving[i as usize - self.placed.len()];
-                    moving.bounds(&of(moving.prototype)?)?
+                    moving.bounds(&of(moving.instance.prototype)?)?
                 }
             };
             Some(PrimRef::new(first + i, b, Kind::Others))

@@ -1,7 +1,7 @@
 //! Rays per second of processor time: meshes and soups of triangles; camera, bounce and shadow rays; one thread.
 //!
-//! `cargo bench -p sparrow-geometry --bench rays -- [SCENE] [ROUNDS] [RESOLUTION] [SETTINGS]`, with SCENE one of `mesh`, `soup`, `small`
-//! or `all`; or `instances`, and instead of SETTINGS their number; or `build`, which builds with one thread and with two. With
+//! `cargo bench -p sparrow-geometry --bench rays -- [SCENE] [ROUNDS] [RESOLUTION] [SETTINGS]`, with SCENE one of `mesh`, `soup`, `small`,
+//! `cornell` or `all`; or `instances`, and instead of SETTINGS their number; or `build`, which builds with one thread and with two. With
 //! `--features embree` and `EMBREE_LIB_DIR` naming a folder that holds `libembree4.so`, every round runs Embree beside it, and the
 //! ratio of the two is the median over the rounds. Linux only: the clock is a thread's processor time.
 
@@ -10,6 +10,8 @@
 
 #[cfg(target_os = "linux")]
 mod build;
+#[cfg(target_os = "linux")]
+mod cornell;
 #[cfg(target_os = "linux")]
 #[cfg(feature = "embree")]
 mod embree;
@@ -40,6 +42,9 @@ fn main() {
         if wanted(scene.name) {
             scene.run(rounds, resolution, settings);
         }
+    }
+    if wanted("cornell") {
+        cornell::run(rounds, resolution);
     }
     if what == "build" {
         scenes::ALL.iter().for_each(|scene| build::run(scene.name, &scene.mesh(), rounds));

@@ -35,6 +35,30 @@ impl Tracer for Single<'_> {
     }
 }
 
+/// Sparrow, by lists of rays.
+pub(crate) struct Many<'a>(pub(crate) &'a Geometry);
+
+/// Rays of a list.
+const LIST: usize = 1024;
+
+impl Tracer for Many<'_> {
+    fn name(&self) -> &str {
+        "sparrow, lists"
+    }
+    fn closest(&self, rays: &[Ray], out: &mut [(f32, u32)]) {
+        let mut hits = [None; LIST];
+        for (rays, out) in rays.chunks(LIST).zip(out.chunks_mut(LIST)) {
+            self.0.intersect_many(rays, &mut hits);
+            out.iter_mut().zip(&hits).for_each(|(out, h)| *out = h.map_or(MISS, |h| (h.t, h.prim)));
+        }
+    }
+    fn occluded(&self, rays: &[Ray], out: &mut [bool]) {
+        for (rays, out) in rays.chunks(LIST).zip(out.chunks_mut(LIST)) {
+            self.0.occluded_many(rays, out);
+        }
+    }
+}
+
 /// Processor time of this thread, in seconds.
 pub(crate) fn cpu_seconds() -> f64 {
     let t = clock_gettime(ClockId::CLOCK_THREAD_CPUTIME_ID).unwrap();

@@ -3,6 +3,8 @@
 use sparrow_geometry::{Geometry, Ray, SurfacePoint};
 use sparrow_math::{Frame, LocalDir, Real, Vec3, vec3, warp};
 
+use crate::race::{Query, Tracer, race};
+
 /// Uniform numbers in [0, 1). [Steele2014]
 pub(crate) struct Rng(pub(crate) u64);
 
@@ -49,7 +51,7 @@ pub(crate) fn camera(eye: Vec3<f32>, at: Vec3<f32>, fov_deg: f32, n: usize) -> V
 }
 
 /// The points that the rays meet, each with the side of the normal that they came from.
-fn points(geometry: &Geometry, rays: &[Ray]) -> Vec<(SurfacePoint, Vec3<f32>)> {
+pub(crate) fn points(geometry: &Geometry, rays: &[Ray]) -> Vec<(SurfacePoint, Vec3<f32>)> {
     let point = |ray: &Ray| {
         let s = geometry.surface(ray, &geometry.intersect(ray)?);
         Some((s, s.ng.facing(-ray.d)))
@@ -89,5 +91,12 @@ impl RaySets {
         let mut to_light = shadow(geometry, &camera, light, 5);
         to_light.extend(shadow(geometry, &bounce, light, 6));
         RaySets { camera, bounce, shuffled, shadow: to_light }
+    }
+    /// Times all sets.
+    pub(crate) fn race(&self, tracers: &[Box<dyn Tracer + '_>], rounds: usize) {
+        race("camera", tracers, &self.camera, rounds, Query::Closest);
+        race("bounce", tracers, &self.bounce, rounds, Query::Closest);
+        race("bounces 2 and 3, shuffled", tracers, &self.shuffled, rounds, Query::Closest);
+        race("shadow, any hit", tracers, &self.shadow, rounds, Query::Any);
     }
 }

@@ -3,7 +3,7 @@
 use sparrow_geometry::{Geometry, Shape, ShapeInstance, TriangleMesh};
 use sparrow_math::{Real, Transform, Vec3, vec3};
 
-use crate::race::{Query, Single, Tracer, cpu_seconds, race};
+use crate::race::{Many, Single, Tracer, cpu_seconds};
 use crate::rays::{RaySets, Rng, camera};
 
 /// A scene and how it is looked at.
@@ -62,16 +62,14 @@ impl Scene {
         let (seconds, stats) = (cpu_seconds() - start, geometry.stats());
         let megabytes = 1e-6 * stats.bytes as f64;
         println!("  built in {seconds:.3} s: {} nodes, {megabytes:.1} MB with the mesh", stats.nodes);
-        let mut tracers: Vec<Box<dyn Tracer + '_>> = vec![Box::new(Single(&geometry))];
+        let mut tracers: Vec<Box<dyn Tracer + '_>> =
+            vec![Box::new(Single(&geometry)), Box::new(Many(&geometry))];
         #[cfg(feature = "embree")]
         for tracer in crate::embree::all(&mesh, settings) {
             tracers.push(Box::new(tracer));
         }
-        let sets = RaySets::new(&geometry, camera(self.eye, self.at, 45.0, resolution), self.light);
-        race("camera", &tracers, &sets.camera, rounds, Query::Closest);
-        race("bounce", &tracers, &sets.bounce, rounds, Query::Closest);
-        race("bounces 2 and 3, shuffled", &tracers, &sets.shuffled, rounds, Query::Closest);
-        race("shadow, any hit", &tracers, &sets.shadow, rounds, Query::Any);
+        RaySets::new(&geometry, camera(self.eye, self.at, 45.0, resolution), self.light)
+            .race(&tracers, rounds);
     }
 }
 

@@ -91,6 +91,12 @@ impl TriBlock {
         }
     }
 
+    /// The triangles: numbers and corners.
+    pub(crate) fn triangles(&self) -> impl Iterator<Item = (u32, [[f32; 3]; 3])> {
+        let used = |i: &usize| !self.p[0][0][*i].is_nan();
+        (0..LEAF_SIZE).filter(used).map(|i| (self.id[i], self.p.map(|p| p.map(|axis| axis[i]))))
+    }
+
     /// Offers every point of the ray before `t_max` to `found`, which answers with the new `t_max`; returns the last of them.
     #[inline(always)]
     pub(crate) fn hit<S: Simd>(

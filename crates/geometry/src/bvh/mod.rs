@@ -5,7 +5,9 @@
 
 mod block;
 mod build;
+mod few;
 mod node;
+mod packet;
 mod pages;
 mod ray_data;
 mod stack;
@@ -15,9 +17,10 @@ mod traverse;
 
 pub(crate) use block::{RawHit, TriBlock, gamma};
 pub(crate) use build::PrimRef;
+pub(crate) use few::Few;
 pub(crate) use node::Kind;
 use node::{Child, Node};
-use pages::Pages;
+pub(crate) use pages::Pages;
 pub(crate) use traverse::Others;
 
 use sparrow_math::Aabb;

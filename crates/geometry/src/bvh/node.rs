@@ -99,6 +99,12 @@ impl Node {
         self.child[i] = child;
     }
 
+    /// The box of a child; `None` where there is none.
+    pub(crate) fn bounds_of(&self, i: usize) -> Option<Aabb> {
+        let face = |side: usize| [0, 1, 2].map(|a: usize| self.bounds[a][side][i]).into();
+        (self.child[i] != Child::NONE).then(|| Aabb { lo: face(0), hi: face(1) })
+    }
+
     /// The boxes met between 0 and `t_max`, one bit each, and where the ray enters them.
     #[inline(always)]
     pub(crate) fn hit<S: Simd>(&self, r: &RayData<S>, t_max: S::F8) -> (u32, S::F8) {

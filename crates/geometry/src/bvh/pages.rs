@@ -6,7 +6,7 @@ use bytemuck::Pod;
 use memmap2::MmapMut;
 
 /// From this size on, in bytes, a list gets pages of its own.
-const LARGE: usize = 4 << 20;
+const LARGE: usize = 2 << 20;
 
 /// A list of fixed length. A large one lies in huge pages where the system has them: a ray that jumps about in it then
 /// finds its addresses in the translation cache. The advice has to come before the memory is first touched.
@@ -51,6 +51,17 @@ impl<T: Pod> DerefMut for Pages<T> {
     }
 }
 
+impl<T: Pod> From<Vec<T>> for Pages<T> {
+    fn from(list: Vec<T>) -> Pages<T> {
+        if size_of_val(&*list) < LARGE {
+            return Pages::Heap(list);
+        }
+        let mut pages = Pages::zeroed(list.len());
+        pages.copy_from_slice(&list);
+        pages
+    }
+}
+
 impl<T: Pod> Clone for Pages<T> {
     fn clone(&self) -> Pages<T> {
         let mut copy = Pages::zeroed(self.len());
@@ -76,6 +87,7 @@ mod tests {
             assert!(list.len() == len && list.iter().all(|&x| x == 0));
             list.iter_mut().zip(0..).for_each(|(x, i)| *x = i);
             assert!(list.iter().copied().eq(0..len as u64));
+            assert!(Pages::from(list.to_vec()).iter().eq(list.iter()));
         }
     }
 }

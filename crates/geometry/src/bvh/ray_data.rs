@@ -4,16 +4,19 @@ use super::block::LeafFloats;
 use crate::ray::Ray;
 use crate::simd::{Floats, Simd};
 
+/// Eight units in the last place: more than the box test and the shear of the triangle test can err together, so that no ray
+/// slips between two boxes that touch. [Ize2013; Woop2013, section 4]
+pub(super) const PAD: f32 = 8.0 * f32::EPSILON;
+/// A finite stand-in for 1/0: infinity times a distance of zero is not a number.
+pub(super) const TINY_INV: f32 = 1e30;
+
 /// A ray with what the tests need of it, worked out once. Registers hold the same number in every lane.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct RayData<S: Simd> {
     pub(crate) o: [S::F8; 3],
     /// 1 where the direction is negative: the upper face is the near one.
     pub(crate) neg: [usize; 3],
-    /// Reciprocal direction, negated; drawn in for entries and stretched for exits.
-    ///
-    /// By eight units in the last place: more than the box test and the shear of the triangle test can err
-    /// together, so that no ray slips between two boxes that touch. [Ize2013; Woop2013, section 4]
+    /// Reciprocal direction, negated; drawn in for entries and stretched for exits by [`PAD`].
     pub(crate) minus_inv_near: [S::F8; 3],
     pub(crate) minus_inv_far: [S::F8; 3],
     /// The axes, permuted: the last is the one along which the direction is longest.
@@ -44,10 +47,8 @@ impl<S: Simd> RayData<S> {
         if !(ray.o.is_finite() && ray.d.is_finite() && sz.is_finite()) {
             return None;
         }
-        // A finite stand-in for 1/0: infinity times a distance of zero is not a number.
-        let inv = |d: f32| if d.abs() < 1e-30 { 1e30_f32.copysign(d) } else { 1.0 / d };
+        let inv = |d: f32| if d.abs() < 1e-30 { TINY_INV.copysign(d) } else { 1.0 / d };
         let inv = [inv(d[0]), inv(d[1]), inv(d[2])];
-        const PAD: f32 = 8.0 * f32::EPSILON;
         let minus_inv = |scale: f32| {
             let of = |a: usize| S::F8::splat(-inv[a] * scale);
             [of(0), of(1), of(2)]

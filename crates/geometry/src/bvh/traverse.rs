@@ -2,7 +2,9 @@
 
 use super::Bvh;
 use super::block::{RawHit, TriBlock};
+use super::few::Few;
 use super::node::{Child, Node, WIDTH};
+use super::packet;
 use super::ray_data::RayData;
 use super::stack::{Entry, Stack};
 use crate::ray::Ray;
@@ -150,9 +152,10 @@ impl<A: Fn(&RawHit) -> bool> Best<A> {
     }
 }
 
-/// Many rays through a tree: the vector unit is chosen once for all.
+/// Many rays through a tree, or all of it that there is if these are few: the vector unit is chosen once for all.
 struct Walks<'a, const ANY: bool, O, P> {
     bvh: &'a Bvh,
+    few: Option<&'a Few>,
     rays: &'a [Ray],
     others: &'a O,
     put: P,
@@ -162,10 +165,20 @@ impl<const ANY: bool, O: Others, P: FnMut(usize, Option<RawHit>)> Kernel for Wal
     type Output = ();
     #[inline(always)]
     fn run<S: Simd>(mut self) {
-        for (i, ray) in self.rays.iter().enumerate() {
-            let mut best = Best { accept: |_: &RawHit| true, hit: None, t_max: ray.t_max };
-            walk::<S, ANY>(self.bvh, ray, self.others, |h| best.offer::<ANY>(h));
-            (self.put)(i, best.hit);
+        let mut corners = packet::room::<S>();
+        for (n, rays) in self.rays.chunks(packet::RAYS).enumerate() {
+            let (mut found, mut alone) = ([None; packet::RAYS], u32::MAX);
+            if let (Some(few), Ok(rays)) = (self.few, rays.try_into()) {
+                (found, alone) = packet::hit::<S, ANY>(few, rays, self.others, &mut corners);
+            }
+            for (i, (ray, found)) in rays.iter().zip(&mut found).enumerate() {
+                if alone >> i & 1 == 1 {
+                    let mut best = Best { accept: |_: &RawHit| true, hit: None, t_max: ray.t_max };
+                    walk::<S, ANY>(self.bvh, ray, self.others, |h| best.offer::<ANY>(h));
+                    *found = best.hit;
+                }
+                (self.put)(n * packet::RAYS + i, *found);
+            }
         }
     }
 }
@@ -188,13 +201,15 @@ impl Bvh {
         self.unit.run(Walk::<ANY, _, _> { bvh: self, ray, others, found: |h| best.offer::<ANY>(h) });
         best.hit
     }
-    /// The same for each ray of a list, without a choice; `put` takes the answers in order.
+    /// The same for each ray of a list, without a choice; `put` takes the answers in order. `few` may be what [`Few::new`] made
+    /// of this tree.
     pub(crate) fn hits<const ANY: bool>(
         &self,
+        few: Option<&Few>,
         rays: &[Ray],
         others: &impl Others,
         put: impl FnMut(usize, Option<RawHit>),
     ) {
-        self.unit.run(Walks::<ANY, _, _> { bvh: self, rays, others, put });
+        self.unit.run(Walks::<ANY, _, _> { bvh: self, few, rays, others, put });
     }
 }

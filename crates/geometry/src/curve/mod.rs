@@ -13,14 +13,16 @@ mod tube;
 use frame::{RayCubic, RayFrame};
 use obb::{Entries, ObbBlock, WIDTH};
 use pieces::{CurveHit, Pieces};
-use sparrow_math::{Aabb, InLanes, Real, Vec3, in_lanes};
+#[cfg(target_arch = "x86_64")]
+use sparrow_math::in_lanes;
+use sparrow_math::{Aabb, InLanes, Lanes, Real, Vec3};
 use strands::Strands;
 use strip::Width;
 
-use crate::bvh::RawHit;
+use crate::bvh::{Pages, RawHit};
 use crate::ray::Ray;
 use crate::shape::{CurveKind, CurveSet};
-use crate::simd::prefetch;
+use crate::simd::{Unit, prefetch};
 
 /// Parts of a segment at most, as a power of two.
 const MAX_SPLIT: u32 = 2;
@@ -36,11 +38,13 @@ pub(crate) struct Curves {
     normals: Vec<[f32; 3]>,
     /// Segments have `2^split` parts.
     split: u32,
-    blocks: Vec<ObbBlock>,
+    blocks: Pages<ObbBlock>,
     /// The box around each block.
     bounds: Vec<Aabb>,
     /// Segments that cannot be hit.
     dropped: usize,
+    /// What queries run on.
+    unit: Unit,
 }
 
 impl Curves {
@@ -61,8 +65,8 @@ impl Curves {
             let c = strands.cubic(segment);
             if split == 0 { c } else { c.part(u) }
         };
-        let (bounds, blocks) = group::blocks(&mut pieces, &make).into_iter().unzip();
-        Curves { strands, kind, normals, split, blocks, bounds, dropped }
+        let (bounds, blocks): (_, Vec<_>) = group::blocks(&mut pieces, &make).into_iter().unzip();
+        Curves { strands, kind, normals, split, blocks: blocks.into(), bounds, dropped, unit: Unit::choose() }
     }
     /// Segments.
     pub(crate) fn len(&self) -> usize {
@@ -103,7 +107,17 @@ impl Curves {
         t_max: f32,
         found: &mut impl FnMut(RawHit) -> f32,
     ) -> f32 {
-        in_lanes(BlockTest { curves: self, block: &self.blocks[block as usize], ray, first, t_max, found })
+        let block = &self.blocks[block as usize];
+        match self.unit {
+            Unit::Portable => self.hit_portable(BlockTest { curves: self, block, ray, first, t_max, found }),
+            #[cfg(target_arch = "x86_64")]
+            Unit::Avx2(_) => in_lanes(BlockTest { curves: self, block, ray, first, t_max, found }),
+        }
+    }
+    /// In lanes that every target has. Compiled once: that takes long.
+    #[inline(never)]
+    fn hit_portable(&self, test: BlockTest<dyn FnMut(RawHit) -> f32 + '_>) -> f32 {
+        test.run::<Lanes<8>>()
     }
 
     /// The nearest point of the ray on piece `i` of a block.
@@ -148,7 +162,7 @@ fn part_of(id: u32, split: u32) -> (u32, [f32; 2]) {
 }
 
 /// A ray and a block.
-struct BlockTest<'a, F> {
+struct BlockTest<'a, F: ?Sized> {
     curves: &'a Curves,
     block: &'a ObbBlock,
     ray: &'a Ray,
@@ -157,12 +171,12 @@ struct BlockTest<'a, F> {
     found: &'a mut F,
 }
 
-impl<F: FnMut(RawHit) -> f32> InLanes for BlockTest<'_, F> {
+impl<F: FnMut(RawHit) -> f32 + ?Sized> InLanes for BlockTest<'_, F> {
     type Output = f32;
     /// The last limit.
     #[inline(always)]
     fn run<R: Real>(self) -> f32 {
-        let Entries { mut mask, t } = self.block.hit(self.ray.o, self.ray.d, self.t_max);
+        let Entries { mut mask, t } = self.block.hit(self.curves.unit, self.ray.o, self.ray.d, self.t_max);
         let mut limit = self.t_max;
         if mask == 0 {
             return limit;
@@ -193,5 +207,57 @@ impl<F: FnMut(RawHit) -> f32> InLanes for BlockTest<'_, F> {
             }
         }
         limit
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shape::CurveBasis;
+    use sparrow_math::vec3;
+
+    /// Every unit finds the same points, to the bit.
+    #[test]
+    fn units_agree_to_the_bit() {
+        let wave = |k: u32, f: f32| 0.3 * (k as f32 * f).rem_euclid(2.0) - 0.3;
+        let points = |n: u32| -> Vec<[f32; 4]> {
+            (0..n)
+                .map(|k| [wave(k, 0.37), wave(k, 0.73), wave(k, 1.13), 0.01 + 0.002 * wave(k, 0.9)])
+                .collect()
+        };
+        for kind in [CurveKind::Round, CurveKind::Flat, CurveKind::Ribbon] {
+            let normals = (0..58).map(|k| [1.0, wave(k, 0.5), wave(k, 0.8)]).collect();
+            let set = || CurveSet {
+                points: points(60),
+                strands: vec![0],
+                basis: CurveBasis::BSpline,
+                kind,
+                normals: if kind == CurveKind::Ribbon { Clone::clone(&normals) } else { Vec::new() },
+                split_depth: 1,
+            };
+            let (mut portable, mut best) = (Curves::new(set()), Curves::new(set()));
+            assert_eq!(portable.kind, kind);
+            (portable.unit, best.unit) = (Unit::named("portable"), Unit::named(""));
+            let mut hits = 0;
+            for k in 0..3000 {
+                let target = vec3(wave(k, 0.119), wave(k, 0.233), wave(k, 0.317));
+                let o = vec3(wave(k, 0.51), wave(k, 0.61), 2.0);
+                let ray = Ray::new(o, target - o);
+                for block in 0..best.blocks.len() as u32 {
+                    let of = |c: &Curves| {
+                        let mut found = Vec::new();
+                        let last = c.hit(0, block, &ray, f32::INFINITY, &mut |h: RawHit| {
+                            found.push([h.t.to_bits(), h.id, h.u.to_bits(), h.v.to_bits()]);
+                            h.t
+                        });
+                        (found, last.to_bits())
+                    };
+                    let (a, b) = (of(&portable), of(&best));
+                    hits += a.0.len();
+                    assert_eq!(a, b, "{kind:?} {ray:?}");
+                }
+            }
+            assert!(hits > 100, "{kind:?}: {hits}");
+        }
     }
 }

@@ -3,9 +3,16 @@
 //! A box is the preimage of `lo..hi` under a map of its own, whose rows are nearly orthonormal and lie on a grid of
 //! 1/127; bounds are whole numbers in units of the block. 32 bytes a box.
 
+#![allow(
+    unsafe_code,
+    reason = "says that the bytes of a type are numbers, so that it can lie in mapped pages; vector registers"
+)]
+
+use bytemuck::{Pod, Zeroable};
 use sparrow_math::{Vec3, vec3};
 
 use super::cubic::Cubic;
+use crate::simd::{Floats, Portable, Simd, Unit};
 
 /// Boxes of a block.
 pub(super) const WIDTH: usize = 8;
@@ -29,9 +36,13 @@ pub(super) struct ObbBlock {
     origin: [f32; 3],
     /// Block space from world space: a factor.
     scale: f32,
-    /// What rounding may do near the block.
-    margin: f32,
+    spare: [u32; 2],
 }
+
+// SAFETY: numbers without gaps between them: 256 bytes, a multiple of the alignment.
+unsafe impl Pod for ObbBlock {}
+// SAFETY: as above.
+unsafe impl Zeroable for ObbBlock {}
 
 /// Which boxes a ray meets, one bit each, and where it enters them; elsewhere that is not set.
 #[derive(Clone, Copy, Debug)]
@@ -85,7 +96,7 @@ impl ObbBlock {
             place: [0; WIDTH],
             origin: origin.to_array(),
             scale,
-            margin: 222.0 * PAD * scale * origin.abs().max_component(),
+            spare: [0; 2],
         };
         for (i, (id, c)) in segments.iter().enumerate() {
             block.id[i] = *id;
@@ -129,16 +140,37 @@ impl ObbBlock {
 
     /// The boxes met between 0 and `t_max`.
     #[inline(always)]
-    pub(super) fn hit(&self, o: Vec3<f32>, d: Vec3<f32>, t_max: f32) -> Entries {
+    pub(super) fn hit(&self, unit: Unit, o: Vec3<f32>, d: Vec3<f32>, t_max: f32) -> Entries {
         let (o, d, pad) = self.in_block(o, d);
-        #[cfg(target_arch = "x86_64")]
-        if std::arch::is_x86_feature_detected!("avx2") {
-            return avx2::hit(self, o, d, pad, t_max);
+        match unit {
+            Unit::Portable => self.hit_portable(o, d, pad, t_max),
+            #[cfg(target_arch = "x86_64")]
+            Unit::Avx2(_) => avx2::hit(self, o, d, pad, t_max),
         }
-        self.hit_scalar(o, d, pad, t_max)
     }
 
-    /// One box after the other.
+    /// In registers that every target has.
+    fn hit_portable(&self, o: Vec3<f32>, d: Vec3<f32>, pad: f32, t_max: f32) -> Entries {
+        type F8 = <Portable as Simd>::F8;
+        let splat = |v: f32| F8::splat(v);
+        let (mut t0, mut t1) = (splat(0.0), splat(t_max));
+        let mut there = 0;
+        for (axes, bounds) in self.axes.iter().zip(&self.bounds) {
+            let [x, y, z] = axes.map(|row| F8::load(&row.map(f32::from)));
+            let dot = |v: Vec3<f32>| x * splat(v.x) + y * splat(v.y) + z * splat(v.z);
+            let (o, d) = (dot(o), dot(d));
+            let small = d.abs().lt(splat(TINY));
+            let inv = splat(1.0) / if small == 0 { d } else { splat(TINY).only_where(small, d) };
+            let [lo, hi] = bounds.map(|b| F8::load(&b.map(f32::from)));
+            let (a, b) = ((lo - (o + splat(pad))) * inv, (hi - (o - splat(pad))) * inv);
+            (t0, t1) = (t0.max(a.min(b)), t1.min(a.max(b)));
+            there = lo.lt(hi);
+        }
+        Entries { mask: t0.le(t1 * splat(SLACK)) & there, t: t0.to_array() }
+    }
+
+    /// One box after the other: the twin of the others.
+    #[cfg(test)]
     fn hit_scalar(&self, o: Vec3<f32>, d: Vec3<f32>, pad: f32, t_max: f32) -> Entries {
         let mut found = Entries { mask: 0, t: [0.0; WIDTH] };
         for i in 0..WIDTH {
@@ -163,9 +195,8 @@ const TINY: f32 = 1e-18;
 /// An exit is put off by what the quotients may err.
 const SLACK: f32 = 1.0 + 4.0 * f32::EPSILON;
 
-/// The test of eight in registers.
+/// The test of eight in registers; tested against the scalar twin.
 #[cfg(target_arch = "x86_64")]
-#[allow(unsafe_code, reason = "vector registers; tested against the scalar twin")]
 mod avx2 {
     use core::arch::x86_64::{
         __m256, _CMP_LE_OQ, _CMP_LT_OQ, _mm_loadl_epi64, _mm_loadu_si128, _mm256_add_ps, _mm256_and_ps,
@@ -272,7 +303,7 @@ mod tests {
                 let target = (p.p + n * p.r).to_f32();
                 let d = rng.point();
                 let o = target - d * (20.0 * rng.next());
-                let found = block.hit(o, target - o, 1.001);
+                let found = block.hit(Unit::choose(), o, target - o, 1.001);
                 assert!(found.mask >> i & 1 == 1, "box {i} is missed");
                 assert!(found.t[*i as usize] <= 1.0);
                 assert_eq!(found.mask & !0x1f, 0, "an unused box is hit");
@@ -289,12 +320,16 @@ mod tests {
                 (0..8).map(|i| (i, segment(&mut rng, Vec3::splat(0.0)))).collect();
             let block = ObbBlock::around(&segments);
             let (o, d) = (rng.point() * 3.0, rng.point());
-            let fast = block.hit(o, d, 5.0);
-            let (o, d, pad) = block.in_block(o, d);
-            let slow = block.hit_scalar(o, d, pad, 5.0);
-            assert_eq!(fast.mask, slow.mask);
-            for i in (0..WIDTH).filter(|i| slow.mask >> i & 1 == 1) {
-                assert_eq!(fast.t[i].to_bits(), slow.t[i].to_bits());
+            let slow = {
+                let (o, d, pad) = block.in_block(o, d);
+                block.hit_scalar(o, d, pad, 5.0)
+            };
+            for unit in [Unit::named("portable"), Unit::named("")] {
+                let fast = block.hit(unit, o, d, 5.0);
+                assert_eq!(fast.mask, slow.mask);
+                for i in (0..WIDTH).filter(|i| slow.mask >> i & 1 == 1) {
+                    assert_eq!(fast.t[i].to_bits(), slow.t[i].to_bits());
+                }
             }
         }
     }

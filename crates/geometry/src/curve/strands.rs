@@ -3,6 +3,7 @@
 use sparrow_math::Vec3;
 
 use super::cubic::Cubic;
+use crate::bvh::Pages;
 use crate::shape::{CurveBasis, CurveSet};
 use crate::simd::prefetch;
 
@@ -15,7 +16,7 @@ const POINT: u32 = LAST - 1;
 /// Control points with a list of segments: at most 20 bytes for each point.
 #[derive(Debug)]
 pub(super) struct Strands {
-    points: Vec<[f32; 4]>,
+    points: Pages<[f32; 4]>,
     /// The first control point of each segment; of a Catmull-Rom spline the point where it begins, with marks.
     segments: Vec<u32>,
     /// The first segment of each strand, and their number.
@@ -53,7 +54,7 @@ impl Strands {
         }
         first.push(segments.len() as u32);
         segments.shrink_to_fit();
-        Strands { points, segments, first, basis: set.basis }
+        Strands { points: points.into(), segments, first, basis: set.basis }
     }
 
     pub(super) fn n_segments(&self) -> usize {

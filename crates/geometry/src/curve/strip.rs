@@ -90,7 +90,7 @@ fn newton<R: Real>(j: &LaneJet<R>) -> R {
     let speed2 = j.d.x.sqr() + j.d.y.sqr();
     let slope = speed2 + j.p.x * j.dd.x + j.p.y * j.dd.y;
     // Where the distance has no minimum nearby, the step for a straight line.
-    let slope = R::select(slope.gt(R::of(0.1) * speed2), slope, speed2);
+    let slope = R::select(slope.gt(R::of(0.03) * speed2), slope, speed2);
     let g = j.p.x * j.d.x + j.p.y * j.d.y;
     -(g / slope.max(R::of(1e-30)))
 }

@@ -5,7 +5,7 @@ use sparrow_math::Aabb;
 
 use crate::bvh::{Kind, MAX_PRIMS, Others, PrimRef, RawHit};
 use crate::curve::Curves;
-use crate::patch::Patches;
+use crate::patch::{Part, Patches};
 use crate::quadric::Quadric;
 use crate::ray::{Hit, Ray};
 use crate::shape::{Shape, ShapeInstance};
@@ -97,6 +97,21 @@ pub(super) struct Bodies {
     pub(super) bodies: Vec<Body>,
     /// The first number of each shape.
     first: Vec<u32>,
+    /// The places of all numbers where these are few, else of none.
+    places: Vec<Place>,
+}
+
+/// Numbers whose places are looked up, not searched.
+const LOOKED_UP: usize = 1 << 10;
+
+/// What a number of the tree stands for.
+#[derive(Clone, Copy, Debug)]
+struct Place {
+    shape: u32,
+    /// The number within those of the shape.
+    local: u32,
+    prim: u32,
+    part: Part,
 }
 
 impl Bodies {
@@ -112,7 +127,11 @@ impl Bodies {
             first as u32
         };
         let first = bodies.iter().map(number).collect();
-        (Bodies { bodies, first }, next)
+        let mut all = Bodies { bodies, first, places: Vec::new() };
+        if next <= LOOKED_UP {
+            all.places = (0..next as u32).map(|id| all.search(id)).collect();
+        }
+        (all, next)
     }
     /// What a tree over some of the shapes holds, and how many of their primitives that leaves out.
     pub(super) fn refs(&self, shapes: core::ops::Range<usize>) -> (Vec<PrimRef>, usize) {
@@ -129,8 +148,20 @@ impl Bodies {
     /// The shape that a number of the tree belongs to, and the number within it.
     #[inline]
     fn locate(&self, id: u32) -> (u32, u32) {
+        if let Some(p) = self.places.get(id as usize) {
+            return (p.shape, p.local);
+        }
         let shape = self.first.partition_point(|&f| f <= id) - 1;
         (shape as u32, id - self.first[shape])
+    }
+    fn search(&self, id: u32) -> Place {
+        let (shape, local) = self.locate(id);
+        let (prim, part) = match &self.bodies[shape as usize] {
+            Body::Triangles(_) | Body::Curves(_) => (local, Part::Whole),
+            Body::Patches(m) => (local / 2, m.part(local)),
+            Body::Quadric(_) => (0, Part::Whole),
+        };
+        Place { shape, local, prim, part }
     }
     pub(super) fn corners(&self, id: u32) -> [[f32; 3]; 3] {
         let (shape, local) = self.locate(id);
@@ -140,15 +171,23 @@ impl Bodies {
             Body::Curves(_) | Body::Quadric(_) => [[f32::NAN; 3]; 3],
         }
     }
+    /// A ball that holds a primitive, which is not a triangle; `None` where the points that a ray is offered of it depend on
+    /// where the ray ends.
+    pub(super) fn ball(&self, id: u32) -> Option<([f32; 3], f32)> {
+        let (shape, local) = self.locate(id);
+        let around = |b: Aabb| (((b.lo + b.hi) * 0.5).to_array(), 0.5 * b.extent().length());
+        match &self.bodies[shape as usize] {
+            Body::Patches(m) => Some(around(m.bounds(local))),
+            Body::Quadric(q) => q.as_ref().map(|q| q.whole().unwrap_or_else(|| around(q.bounds()))),
+            Body::Triangles(_) | Body::Curves(_) => None,
+        }
+    }
     /// What the world knows of a point the tree found.
     #[inline]
     pub(super) fn to_hit(&self, raw: &RawHit) -> Hit {
-        let (shape, local) = self.locate(raw.id);
-        let (prim, [u, v]) = match &self.bodies[shape as usize] {
-            Body::Triangles(_) | Body::Curves(_) => (local, [raw.u, raw.v]),
-            Body::Patches(m) => (local / 2, m.parameters(local, raw)),
-            Body::Quadric(_) => (0, [0.0; 2]),
-        };
+        let place = self.places.get(raw.id as usize).copied();
+        let Place { shape, prim, part, .. } = place.unwrap_or_else(|| self.search(raw.id));
+        let [u, v] = part.parameters(raw.u, raw.v);
         Hit { t: raw.t, shape, prim, u, v, instance: None }
     }
 }
@@ -163,6 +202,7 @@ impl Others for Bodies {
             Body::Triangles(_) | Body::Quadric(None) => t_max,
         }
     }
+    #[inline(always)]
     fn ahead(&self, id: u32) {
         let (shape, local) = self.locate(id);
         if let Body::Curves(c) = &self.bodies[shape as usize] {

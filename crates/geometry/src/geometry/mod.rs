@@ -8,7 +8,7 @@ use std::time::Instant;
 use body::{Bodies, Body};
 use sparrow_math::{Aabb, Vec3};
 
-use crate::bvh::{Bvh, MAX_PRIMS};
+use crate::bvh::{Bvh, Few, MAX_PRIMS};
 use crate::instance::{Instance, Instances, MovingInstance};
 use crate::point::{ShapeSample, SurfacePoint};
 use crate::ray::{Hit, Ray};
@@ -38,6 +38,8 @@ pub struct Geometry {
     /// The number that the tree gave to the first instance.
     first_instance: u32,
     bvh: Bvh,
+    /// The tree once more, for lists of rays, where it is small.
+    few: Option<Few>,
     stats: BuildStats,
 }
 
@@ -98,7 +100,9 @@ impl Geometry {
             bytes,
             build_seconds: start.elapsed().as_secs_f64(),
         };
-        Geometry { bodies, instances, first_instance, bvh, stats }
+        let alone = instances.len() == 0;
+        let few = alone.then(|| Few::new(&bvh, |id| bodies.ball(id))).flatten();
+        Geometry { bodies, instances, first_instance, bvh, few, stats }
     }
 
     /// The surface at `hit`, which this geometry gave for `ray`.

@@ -40,7 +40,7 @@ impl Geometry {
             return self.intersect_many_where(rays, out, |_, _| true);
         }
         let put = |i: usize, raw: Option<RawHit>| out[i] = raw.map(|raw| self.bodies.to_hit(&raw));
-        self.bvh.hits::<false>(rays, &self.bodies, put);
+        self.bvh.hits::<false>(self.few.as_ref(), rays, &self.bodies, put);
     }
     /// [`occluded`](Self::occluded) for each of `rays`, into as many places of `out`; what is longer is not looked at.
     pub fn occluded_many(&self, rays: &[Ray], out: &mut [bool]) {
@@ -48,7 +48,7 @@ impl Geometry {
         if self.instances.len() > 0 {
             return self.occluded_many_where(rays, out, |_, _| true);
         }
-        self.bvh.hits::<true>(rays, &self.bodies, |i, raw| out[i] = raw.is_some());
+        self.bvh.hits::<true>(self.few.as_ref(), rays, &self.bodies, |i, raw| out[i] = raw.is_some());
     }
     /// [`intersect_where`](Self::intersect_where) for each of `rays`; `accept` is told the number of the ray.
     pub fn intersect_many_where(

@@ -24,6 +24,29 @@ enum Kind {
     Curved,
 }
 
+/// What the tree knows of a primitive: all of it, or one of the two triangles of a parallelogram.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Part {
+    Whole,
+    First,
+    Second,
+}
+
+impl Part {
+    /// Parameters of the primitive for those that the tree found.
+    #[inline(always)]
+    pub(crate) fn parameters(self, u: f32, v: f32) -> [f32; 2] {
+        let sum = (u + v).min(1.0);
+        // Which of the two it is cannot be foreseen: values are chosen, not ways.
+        let (first, second) = (self == Part::First, self == Part::Second);
+        let or = |sum_here: bool, inside: bool, x: f32| {
+            let x = if inside { x.min(1.0) } else { x };
+            if sum_here { sum } else { x }
+        };
+        [or(first, second, u), or(second, first, v)]
+    }
+}
+
 /// A mesh of patches ready to be asked.
 ///
 /// In the tree a patch has two numbers, `2 prim` and `2 prim + 1`, for the two triangles of a parallelogram; only
@@ -92,19 +115,22 @@ impl Patches {
                 .collect(),
         }
     }
+    /// The box of the patch of which the tree has number `id`.
+    pub(crate) fn bounds(&self, id: u32) -> Aabb {
+        self.corners(id / 2).into_iter().fold(Aabb::EMPTY, Aabb::grow)
+    }
     /// The corners of one of the two triangles of a parallelogram.
     pub(crate) fn triangle(&self, id: u32) -> [[f32; 3]; 3] {
         let at = self.mesh.indices[(id / 2) as usize];
         let p = |i: usize| self.mesh.p[at[i] as usize];
         if id.is_multiple_of(2) { [p(0), p(1), p(3)] } else { [p(0), p(3), p(2)] }
     }
-    /// Parameters of the patch at a point the tree found.
-    pub(crate) fn parameters(&self, id: u32, raw: &RawHit) -> [f32; 2] {
-        let sum = (raw.u + raw.v).min(1.0);
+    /// What a number of the tree is of its patch.
+    pub(crate) fn part(&self, id: u32) -> Part {
         match self.kinds[(id / 2) as usize] {
-            Kind::Curved | Kind::Dropped => [raw.u, raw.v],
-            Kind::Flat(_) if id.is_multiple_of(2) => [sum, raw.v.min(1.0)],
-            Kind::Flat(_) => [raw.u.min(1.0), sum],
+            Kind::Curved | Kind::Dropped => Part::Whole,
+            Kind::Flat(_) if id.is_multiple_of(2) => Part::First,
+            Kind::Flat(_) => Part::Second,
         }
     }
     /// Offers the points of the ray on a curved patch; returns the last limit.

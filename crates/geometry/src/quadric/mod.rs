@@ -77,6 +77,11 @@ impl Quadric {
         }
     }
 
+    /// Centre and radius, if this is a whole sphere; rounded to the nearest.
+    pub(crate) fn whole(&self) -> Option<([f32; 3], f32)> {
+        self.ball.map(|b| (b.center.to_f32().to_array(), b.radius as f32))
+    }
+
     fn to_local(&self, ray: &Ray) -> (Vec3<f64>, Vec3<f64>) {
         (self.to_object.point(ray.o.to_f64()), self.to_object.vector(ray.d.to_f64()))
     }

@@ -6,10 +6,11 @@
 #![allow(unsafe_code, reason = "vector registers; every operation is tested against f32")]
 
 use core::arch::x86_64::{
-    __m256, _CMP_LE_OQ, _CMP_LT_OQ, _MM_HINT_T0, _mm_prefetch, _mm256_add_ps, _mm256_andnot_ps,
-    _mm256_castps_si256, _mm256_castsi256_ps, _mm256_cmp_ps, _mm256_div_ps, _mm256_loadu_ps,
-    _mm256_max_epi32, _mm256_max_ps, _mm256_min_epi32, _mm256_min_ps, _mm256_movemask_ps, _mm256_mul_ps,
-    _mm256_set1_ps, _mm256_storeu_ps, _mm256_sub_ps,
+    __m256, _CMP_LE_OQ, _CMP_LT_OQ, _MM_HINT_T0, _mm_loadu_ps, _mm_prefetch, _mm256_add_ps, _mm256_and_si256,
+    _mm256_andnot_ps, _mm256_blendv_ps, _mm256_broadcast_ps, _mm256_castps_si256, _mm256_castsi256_ps,
+    _mm256_cmp_ps, _mm256_cmpeq_epi32, _mm256_div_ps, _mm256_loadu_ps, _mm256_max_epi32, _mm256_max_ps,
+    _mm256_min_epi32, _mm256_min_ps, _mm256_movemask_ps, _mm256_mul_ps, _mm256_permutevar_ps,
+    _mm256_set1_epi32, _mm256_set1_ps, _mm256_setr_epi32, _mm256_storeu_ps, _mm256_sub_ps,
 };
 use core::ops::{Add, Div, Mul, Sub};
 
@@ -117,6 +118,21 @@ impl Floats<8> for F8 {
     #[inline(always)]
     fn lt(self, o: F8) -> u32 {
         avx!(_mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LT_OQ>(self.0, o.0))) as u32
+    }
+    #[inline(always)]
+    fn only_where(self, bits: u32, o: F8) -> F8 {
+        let lanes = avx!(_mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128));
+        let set = avx!(_mm256_and_si256(_mm256_set1_epi32(bits as i32), lanes));
+        let mask = avx!(_mm256_castsi256_ps(_mm256_cmpeq_epi32(set, lanes)));
+        F8(avx!(_mm256_blendv_ps(o.0, self.0, mask)))
+    }
+    #[inline(always)]
+    fn pick(table: &[f32; 4], at: F8) -> F8 {
+        // SAFETY: `table` holds the four numbers that are read; of each whole number two bits are looked at.
+        F8(avx!(_mm256_permutevar_ps(
+            _mm256_broadcast_ps(&_mm_loadu_ps(table.as_ptr())),
+            _mm256_castps_si256(at.0),
+        )))
     }
 }
 

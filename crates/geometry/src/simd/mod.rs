@@ -37,6 +37,10 @@ pub(crate) trait Floats<const N: usize>:
     fn le(self, o: Self) -> u32;
     /// Bit i says whether `self[i] < o[i]`.
     fn lt(self, o: Self) -> u32;
+    /// `self[i]` where bit i is set, else `o[i]`.
+    fn only_where(self, bits: u32, o: Self) -> Self;
+    /// `table[at[i] % 4]`, where `at` holds bits of whole numbers.
+    fn pick(table: &[f32; 4], at: Self) -> Self;
 }
 
 /// A vector unit: its registers of four and of eight numbers.

@@ -48,6 +48,18 @@ macro_rules! floats {
             fn lt(self, o: $type) -> u32 {
                 self.simd_lt(o).to_bitmask()
             }
+            #[inline(always)]
+            fn only_where(self, bits: u32, o: $type) -> $type {
+                let (mut a, b) = (self.to_array(), o.to_array());
+                for (i, a) in a.iter_mut().enumerate() {
+                    *a = if bits >> i & 1 == 1 { *a } else { b[i] };
+                }
+                $type::new(a)
+            }
+            #[inline(always)]
+            fn pick(table: &[f32; 4], at: $type) -> $type {
+                $type::new(at.to_array().map(|i| table[i.to_bits() as usize % 4]))
+            }
         }
     };
 }

@@ -1,6 +1,9 @@
 //! Instances against the same shapes copied out.
 
-use sparrow_geometry::{Geometry, Instance, MovingInstance, Ray, Shape, ShapeInstance, TriangleMesh};
+use sparrow_geometry::{
+    CurveBasis, CurveKind, CurveSet, Geometry, Instance, MovingInstance, Ray, Shape, ShapeInstance,
+    TriangleMesh,
+};
 use sparrow_math::{Motion, Transform, Vec3, vec3};
 
 use super::rays::ball;
@@ -154,9 +157,15 @@ fn moving_instances_agree_with_standing_ones() {
         let mut rng = Rng(35);
         vec![vec![triangles(&mut rng, 40, 0.6), placed(sphere(0.4))]]
     };
-    let motions: Vec<Motion> = (0..8)
+    let mut motions: Vec<Motion> = (0..8)
         .map(|k| Motion::new(&space(&mut rng, 3 * (k % 2)), &space(&mut rng, 3 * (k % 2) + 6)).unwrap())
         .collect();
+    // Two that only shift.
+    motions.extend((0..2).map(|k| {
+        let start = space(&mut rng, 3 * k);
+        let by = Transform::translate(Vec3::from(rng.point()).to_f64());
+        Motion::new(&start, &by.then_first(&start)).unwrap()
+    }));
     let moving = motions.iter().map(|&motion| MovingInstance { motion, prototype: 0 }).collect();
     let moving = Geometry::build_moving(vec![], prototypes(), vec![], moving);
     let (mut hits, mut wrong) = (0, 0);
@@ -190,4 +199,69 @@ fn moving_instances_agree_with_standing_ones() {
     }
     // A ray near an edge or silhouette may go either way.
     assert!(hits > 2000 && wrong <= 5, "{wrong} of {hits} wrong");
+}
+
+/// Curves in an instance are met as curves that stand there themselves, also where the instance moves by a shift.
+#[test]
+fn instanced_curves_agree_with_copies() {
+    let mut rng = Rng(36);
+    let points: Vec<[f32; 4]> = (0..60)
+        .map(|_| {
+            let [x, y, z] = rng.point();
+            [x, y, z, 0.02 + 0.03 * rng.next()]
+        })
+        .collect();
+    // Turned by a quarter and scaled evenly, both exact, so that tubes stay round and corners are rounded once.
+    let turned =
+        |[x, y, z, r]: [f32; 4], shift: f32| [-0.5 * y + shift, 0.5 * x + 0.25, 0.5 * z - 0.125, 0.5 * r];
+    let rows = |shift: f32| [[0.0, -0.5, 0.0, shift], [0.5, 0.0, 0.0, 0.25], [0.0, 0.0, 0.5, -0.125]];
+    for kind in [CurveKind::Round, CurveKind::Flat, CurveKind::Cylinder] {
+        let curves = |points| {
+            let strands = vec![0, 20, 40];
+            placed(Shape::Curves(CurveSet {
+                points,
+                strands,
+                kind,
+                basis: CurveBasis::BSpline,
+                ..CurveSet::default()
+            }))
+        };
+        let (start, end) = (0.75, -0.25);
+        let place = |shift: f32| {
+            let [x, y, z] = rows(shift).map(|r| r.map(f64::from));
+            Transform::from_rows([x, y, z, [0.0, 0.0, 0.0, 1.0]]).unwrap()
+        };
+        let motion = Motion::new(&place(start), &place(end)).unwrap();
+        let moving = vec![MovingInstance { motion, prototype: 0 }];
+        let moving = Geometry::build_moving(vec![], vec![vec![curves(points.clone())]], vec![], moving);
+        for time in [0.0, 0.25, 1.0] {
+            let shift = start + (end - start) * time;
+            let copies = curves(points.iter().map(|&p| turned(p, shift)).collect());
+            let copies = Geometry::build(vec![copies]);
+            let instance = Instance { to_world: rows(shift), prototype: 0 };
+            let standing =
+                Geometry::build_instanced(vec![], vec![vec![curves(points.clone())]], vec![instance]);
+            let (mut hits, mut wrong) = (0, 0);
+            for _ in 0..4000 {
+                let o = Vec3::from(rng.point()) * 2.5;
+                let ray = Ray { time, ..Ray::new(o, Vec3::from(rng.point()) * 0.6 - o) };
+                let expected = copies.intersect(&ray);
+                for g in [&standing, &moving] {
+                    let found = g.intersect(&ray);
+                    assert_eq!(found.is_some(), g.occluded(&ray));
+                    let (Some(a), Some(b)) = (found, expected) else {
+                        wrong += u32::from(found.is_some() != expected.is_some());
+                        continue;
+                    };
+                    hits += 1;
+                    let (s, r) = (g.surface(&ray, &a), copies.surface(&ray, &b));
+                    let same =
+                        a.prim == b.prim && (s.p - r.p).length() < 1e-4 && (s.h() - r.h()).abs() < 1e-2;
+                    wrong += u32::from(!same || (a.instance, b.instance) != (Some(0), None));
+                }
+            }
+            // Silhouettes may go either way.
+            assert!(hits > 300 && wrong * 200 <= hits, "{kind:?}: {wrong} of {hits} wrong");
+        }
+    }
 }

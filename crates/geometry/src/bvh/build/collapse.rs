@@ -16,6 +16,61 @@ struct Costs {
     is_leaf: bool,
 }
 
+impl Costs {
+    fn of_leaf(cost: f32) -> Costs {
+        Costs { at_most: [cost; WIDTH - 1], left: [0; WIDTH - 1], left_of_node: 0, is_leaf: true }
+    }
+
+    /// Of a node, from those of its children.
+    fn new(node: &BinaryNode, l: &Costs, r: &Costs) -> Costs {
+        let area = node.bounds.half_area();
+        let as_leaf = area * leaf_cost(node);
+        // The cheapest way to share `n` children out between left and right.
+        let share = |n: usize| {
+            let mut best = (f32::INFINITY, 1);
+            for k in 1..n {
+                let cost = l.at_most[k - 1] + r.at_most[n - k - 1];
+                if cost < best.0 {
+                    best = (cost, k as u8);
+                }
+            }
+            best
+        };
+        let (below, left_of_node) = share(WIDTH);
+        let as_node = area + below;
+        let mut c =
+            Costs { left_of_node, is_leaf: as_leaf <= as_node, ..Costs::of_leaf(as_leaf.min(as_node)) };
+        for n in 2..WIDTH {
+            let (cost, k) = share(n);
+            let fewer = c.at_most[n - 2];
+            (c.at_most[n - 1], c.left[n - 1]) = if cost < fewer { (cost, k) } else { (fewer, c.left[n - 2]) };
+            // With fewer children the same shares serve; what is left over stays empty.
+        }
+        c
+    }
+}
+
+/// Nodes of a subtree below which one thread goes on alone.
+const PARALLEL: usize = 1 << 12;
+
+/// Works out the costs of a subtree, given by its nodes.
+fn fill(nodes: &[BinaryNode], costs: &mut [Costs]) {
+    let (Some(node), Some((own, below))) = (nodes.first(), costs.split_first_mut()) else { return };
+    if node.right == 0 {
+        *own = Costs::of_leaf(node.bounds.half_area() * leaf_cost(node));
+        return;
+    }
+    let (l, r) = below.split_at_mut(node.right as usize - 1);
+    let (of_l, of_r) = nodes[1..].split_at(l.len());
+    if nodes.len() > PARALLEL {
+        rayon::join(|| fill(of_l, l), || fill(of_r, r));
+    } else {
+        fill(of_l, l);
+        fill(of_r, r);
+    }
+    *own = Costs::new(node, &l[0], &r[0]);
+}
+
 /// Cost of testing the primitives of a leaf; infinite where they do not fit one.
 fn leaf_cost(node: &BinaryNode) -> f32 {
     if node.kinds.fit(node.count as usize) { 1.0 } else { f32::INFINITY }
@@ -29,42 +84,8 @@ pub(super) struct Plan<'a> {
 
 impl<'a> Plan<'a> {
     pub(super) fn new(tree: &'a Binary) -> Plan<'a> {
-        let none = Costs { at_most: [0.0; WIDTH - 1], left: [0; WIDTH - 1], left_of_node: 0, is_leaf: true };
-        let mut costs = vec![none; tree.nodes.len()];
-        // Children come after their parents in the list.
-        for (i, node) in tree.nodes.iter().enumerate().rev() {
-            let area = node.bounds.half_area();
-            let as_leaf = area * leaf_cost(node);
-            if node.right == 0 {
-                costs[i].at_most = [as_leaf; WIDTH - 1];
-                continue;
-            }
-            let (l, r) = (costs[i + 1], costs[i + node.right as usize]);
-            // The cheapest way to share `n` children out between left and right.
-            let share = |n: usize| {
-                let mut best = (f32::INFINITY, 1);
-                for k in 1..n {
-                    let cost = l.at_most[k - 1] + r.at_most[n - k - 1];
-                    if cost < best.0 {
-                        best = (cost, k as u8);
-                    }
-                }
-                best
-            };
-            let (below, left_of_node) = share(WIDTH);
-            let as_node = area + below;
-            let c = &mut costs[i];
-            c.left_of_node = left_of_node;
-            c.is_leaf = as_leaf <= as_node;
-            c.at_most[0] = as_leaf.min(as_node);
-            for n in 2..WIDTH {
-                let (cost, k) = share(n);
-                let fewer = c.at_most[n - 2];
-                (c.at_most[n - 1], c.left[n - 1]) =
-                    if cost < fewer { (cost, k) } else { (fewer, c.left[n - 2]) };
-                // With fewer children the same shares serve; what is left over stays empty.
-            }
-        }
+        let mut costs = vec![Costs::of_leaf(0.0); tree.nodes.len()];
+        fill(&tree.nodes, &mut costs);
         Plan { tree, costs }
     }
 

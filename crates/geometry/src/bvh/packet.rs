@@ -1,0 +1,314 @@
+//! Eight rays at once through a tree of one node.
+//!
+//! Lanes are rays, each with axes of its own. A lane computes what [`TriBlock`](super::block::TriBlock) does, to the bit,
+//! but meets the leaves in another order. That matters where two points lie equally far, where a point is computed to lie
+//! before its leaf's box, or where a triangle has to be settled in double precision: such rays are asked anew one by one.
+
+use super::block::{RawHit, gamma};
+use super::few::{Few, FewTriangle, MAX_VERTICES, Other};
+use super::ray_data::{PAD, TINY_INV};
+use super::traverse::Others;
+use crate::ray::Ray;
+use crate::simd::{Floats, Simd};
+use sparrow_math::Aabb;
+
+/// Rays of a packet.
+pub(super) const RAYS: usize = 8;
+
+/// A corner in the sheared spaces of eight rays.
+pub(super) type Sheared<S> = [<S as Simd>::F8; 3];
+
+/// Room for the corners of a tree.
+#[inline(always)]
+pub(super) fn room<S: Simd>() -> [Sheared<S>; MAX_VERTICES] {
+    [[S::F8::splat(0.0); 3]; MAX_VERTICES]
+}
+
+/// Eight rays, with what [`RayData`](super::ray_data::RayData) knows of one.
+struct Packet<S: Simd> {
+    o: [S::F8; 3],
+    d: [S::F8; 3],
+    minus_inv_near: [S::F8; 3],
+    minus_inv_far: [S::F8; 3],
+    k: [S::F8; 3],
+    o_k: [S::F8; 3],
+    s: [S::F8; 3],
+    t_max: S::F8,
+    /// Rays that can meet something.
+    valid: u32,
+}
+
+/// The axes of eight rays, permuted as for one ray; as bits for each ray.
+struct Turns {
+    /// The first axis is y, is z; the second; the third.
+    is: [[u32; 2]; 3],
+}
+
+impl Turns {
+    #[inline(always)]
+    fn new<S: Simd>(d: [S::F8; 3]) -> Turns {
+        let a = [d[0].abs(), d[1].abs(), d[2].abs()];
+        let x = a[1].lt(a[0]) & a[2].lt(a[0]);
+        let y = !a[1].lt(a[0]) & a[2].lt(a[1]);
+        let z = !(x | y);
+        let below = d[0].only_where(x, d[1].only_where(y, d[2])).lt(S::F8::splat(0.0));
+        let above = !below;
+        let first = [x & above | z & below, y & above | x & below];
+        let second = [z & above | x & below, x & above | y & below];
+        Turns { is: [first, second, [y, z]] }
+    }
+    /// Numbers of the axes, as bits.
+    #[inline(always)]
+    fn k<S: Simd>(&self) -> [S::F8; 3] {
+        self.of::<S>([
+            S::F8::splat(f32::from_bits(0)),
+            S::F8::splat(f32::from_bits(1)),
+            S::F8::splat(f32::from_bits(2)),
+        ])
+    }
+    #[inline(always)]
+    fn of<S: Simd>(&self, v: [S::F8; 3]) -> [S::F8; 3] {
+        let [[ay, az], [by, bz], [cy, cz]] = self.is;
+        let z = [v[2].only_where(az, v[0]), v[2].only_where(bz, v[0]), v[2].only_where(cz, v[0])];
+        [v[1].only_where(ay, z[0]), v[1].only_where(by, z[1]), v[1].only_where(cy, z[2])]
+    }
+}
+
+impl<S: Simd> Packet<S> {
+    #[inline(always)]
+    fn new(rays: &[Ray; RAYS]) -> Packet<S> {
+        // Numbers side by side: x y z of origins, of directions, and ends.
+        let mut columns = [[0.0; RAYS]; 7];
+        for (i, ray) in rays.iter().enumerate() {
+            let numbers = [ray.o.x, ray.o.y, ray.o.z, ray.d.x, ray.d.y, ray.d.z, ray.t_max];
+            for (column, x) in columns.iter_mut().zip(numbers) {
+                column[i] = x;
+            }
+        }
+        let [ox, oy, oz, dx, dy, dz, t_max] = &columns;
+        let o = [S::F8::load(ox), S::F8::load(oy), S::F8::load(oz)];
+        let d = [S::F8::load(dx), S::F8::load(dy), S::F8::load(dz)];
+        let turns = Turns::new::<S>(d);
+        let d_k = turns.of::<S>(d);
+        let sz = S::F8::splat(1.0) / d_k[2];
+        let minus_inv = [minus_inv::<S>(d[0]), minus_inv::<S>(d[1]), minus_inv::<S>(d[2])];
+        let valid = finite::<S>(o[0]) & finite::<S>(o[1]) & finite::<S>(o[2]) & finite::<S>(sz);
+        Packet {
+            o,
+            d,
+            minus_inv_near: scaled::<S>(minus_inv, 1.0 - PAD),
+            minus_inv_far: scaled::<S>(minus_inv, 1.0 + PAD),
+            k: turns.k::<S>(),
+            o_k: turns.of::<S>(o),
+            s: [d_k[0] * sz, d_k[1] * sz, sz],
+            t_max: S::F8::load(t_max),
+            valid: valid & finite::<S>(d[0]) & finite::<S>(d[1]) & finite::<S>(d[2]),
+        }
+    }
+
+    /// Where the rays cross the faces of a box across an axis.
+    #[inline(always)]
+    fn interval(&self, b: &Aabb, axis: usize) -> (S::F8, S::F8) {
+        let (p, q) = (self.o[axis] - S::F8::splat(b.lo[axis]), self.o[axis] - S::F8::splat(b.hi[axis]));
+        // The nearer face gives the smaller product: rounding keeps order.
+        let (near, far) = (self.minus_inv_near[axis], self.minus_inv_far[axis]);
+        ((p * near).min(q * near), (p * far).max(q * far))
+    }
+
+    /// Rays that meet a box between 0 and `t_max`, and where they enter it.
+    #[inline(always)]
+    fn meets(&self, b: &Aabb, t_max: S::F8) -> (u32, S::F8) {
+        let [(x0, x1), (y0, y1), (z0, z1)] = [self.interval(b, 0), self.interval(b, 1), self.interval(b, 2)];
+        let t0 = x0.max_nonneg(y0).max_nonneg(z0.max_nonneg(S::F8::splat(0.0)));
+        let t1 = x1.min_nonneg(y1).min_nonneg(z1.min_nonneg(t_max));
+        (t0.le(t1), t0)
+    }
+
+    /// Rays whose lines do not clearly miss a ball: by a hundredfold of what rounding can do here.
+    #[inline(always)]
+    fn reaches(&self, &(center, radius): &([f32; 3], f32)) -> u32 {
+        let [x, y, z] = [center[0], center[1], center[2]];
+        let (x, y, z) =
+            (self.o[0] - S::F8::splat(x), self.o[1] - S::F8::splat(y), self.o[2] - S::F8::splat(z));
+        let [dx, dy, dz] = self.d;
+        let (p, q, r) = (y * dz - z * dy, z * dx - x * dz, x * dy - y * dx);
+        let far = S::F8::splat(1e-5) * (x.abs() + y.abs() + z.abs());
+        let around = 1e-5 * (center[0].abs() + center[1].abs() + center[2].abs());
+        let reach = S::F8::splat(1.0001 * radius + around) + far;
+        // What is not a number misses nothing.
+        !((dx * dx + dy * dy + dz * dz) * reach * reach).lt(p * p + q * q + r * r)
+    }
+
+    /// Brings corners to where the rays run along z from the origin, and bounds the error of `t` of any triangle of theirs:
+    /// by the first number, and the second times the reciprocal of the sum of edge functions.
+    #[inline(always)]
+    fn shear(&self, vertices: &[[f32; 4]], out: &mut [Sheared<S>; MAX_VERTICES]) -> [S::F8; 2] {
+        let mut most = [S::F8::splat(0.0); 3];
+        for (v, out) in vertices.iter().zip(out) {
+            let z = S::F8::pick(v, self.k[2]) - self.o_k[2];
+            let x = S::F8::pick(v, self.k[0]) - self.o_k[0] - self.s[0] * z;
+            let y = S::F8::pick(v, self.k[1]) - self.o_k[1] - self.s[1] * z;
+            most = [most[0].max(x.abs()), most[1].max(y.abs()), most[2].max(z.abs())];
+            *out = [x, y, z];
+        }
+        let [x, y, depth] = most;
+        let z = depth * self.s[2].abs();
+        let (g2, g5) = (S::F8::splat(gamma(2)), S::F8::splat(gamma(5)));
+        let (dx, dy) = (g5 * (x + depth), g5 * (y + depth));
+        let de = S::F8::splat(2.0) * (g2 * x * y + dy * x + dx * y);
+        // As in a block, where an edge function is not larger than the sum; and a thousandth for other roundings.
+        [S::F8::splat(6.01 * gamma(3)) * z, S::F8::splat(3.01) * de * z]
+    }
+}
+
+/// Rays whose number is finite.
+#[inline(always)]
+fn finite<S: Simd>(v: S::F8) -> u32 {
+    v.abs().lt(S::F8::splat(f32::INFINITY))
+}
+
+#[inline(always)]
+fn scaled<S: Simd>(v: [S::F8; 3], by: f32) -> [S::F8; 3] {
+    [v[0] * S::F8::splat(by), v[1] * S::F8::splat(by), v[2] * S::F8::splat(by)]
+}
+
+/// Reciprocals, negated.
+#[inline(always)]
+fn minus_inv<S: Simd>(d: S::F8) -> S::F8 {
+    let (inv, small) = (S::F8::splat(1.0) / d, d.abs().lt(S::F8::splat(1e-30)));
+    S::F8::splat(-1.0) * if small == 0 { inv } else { stand_in::<S>(d).only_where(small, inv) }
+}
+
+/// The reciprocals that stand in for those of directions next to zero.
+#[inline(always)]
+fn stand_in<S: Simd>(d: S::F8) -> S::F8 {
+    let mut d = d.to_array();
+    for d in &mut d {
+        *d = TINY_INV.copysign(*d);
+    }
+    S::F8::load(&d)
+}
+
+/// What eight rays meet so far.
+struct Nearest<S: Simd> {
+    t: S::F8,
+    /// The number of the triangle in the list, as bits.
+    triangle: S::F8,
+    u: S::F8,
+    v: S::F8,
+    /// Rays that met something.
+    hit: u32,
+    /// Rays to be asked anew.
+    anew: u32,
+    /// Rays that look on.
+    open: u32,
+}
+
+impl<S: Simd> Nearest<S> {
+    /// Tests triangle `i` for the rays `met`, which enter its leaf at `t0`.
+    #[inline(always)]
+    fn triangle<const ANY: bool>(
+        &mut self,
+        (i, triangle): (u32, &FewTriangle),
+        (met, t0): (u32, S::F8),
+        (corners, error, sz): (&[Sheared<S>; MAX_VERTICES], &[S::F8; 2], S::F8),
+    ) {
+        let [a, b, c] = triangle.corners;
+        let [a, b, c] = [a, b, c].map(|i| usize::from(i) % MAX_VERTICES);
+        let (a, b, c) = (&corners[a], &corners[b], &corners[c]);
+        let u = c[0] * b[1] - c[1] * b[0];
+        let v = a[0] * c[1] - a[1] * c[0];
+        let w = b[0] * a[1] - b[1] * a[0];
+        let zero = S::F8::splat(0.0);
+        let (least, greatest) = (u.min(v).min(w), u.max(v).max(w));
+        let inside = (zero.le(least) | greatest.le(zero)) & met & self.open;
+        if inside == 0 {
+            return;
+        }
+        let inv = S::F8::splat(1.0) / (u + v + w);
+        let t = (u * a[2] + v * b[2] + w * c[2]) * sz * inv;
+        let near = inside & zero.lt(t) & t.le(self.t);
+        if near == 0 {
+            return;
+        }
+        let exact = (zero.lt(least) | greatest.lt(zero)) & (error[0] + error[1] * inv.abs()).lt(t);
+        let taken = near & exact & t0.le(t) & t.lt(self.t);
+        self.anew |= near & !taken;
+        self.hit |= taken;
+        if ANY {
+            self.open &= !near;
+            return;
+        }
+        self.open &= !self.anew;
+        self.t = t.only_where(taken, self.t);
+        self.triangle = S::F8::splat(f32::from_bits(i)).only_where(taken, self.triangle);
+        self.u = (v * inv).only_where(taken, self.u);
+        self.v = (w * inv).only_where(taken, self.v);
+    }
+}
+
+/// The nearest points of eight rays, or with `ANY` any, and which rays have to be asked one by one instead.
+#[inline(always)]
+pub(super) fn hit<S: Simd, const ANY: bool>(
+    few: &Few,
+    rays: &[Ray; RAYS],
+    others: &impl Others,
+    corners: &mut [Sheared<S>; MAX_VERTICES],
+) -> ([Option<RawHit>; RAYS], u32) {
+    let packet = Packet::<S>::new(rays);
+    let error = packet.shear(&few.vertices, corners);
+    let none = S::F8::splat(0.0);
+    let mut nearest = Nearest::<S> {
+        t: packet.t_max,
+        triangle: none,
+        u: none,
+        v: none,
+        hit: 0,
+        anew: 0,
+        open: packet.valid,
+    };
+    for (bounds, range) in &few.leaves {
+        let (met, t0) = packet.meets(bounds, nearest.t);
+        if met & nearest.open == 0 {
+            continue;
+        }
+        for (triangle, i) in few.triangles[range.clone()].iter().zip(range.start as u32..) {
+            nearest.triangle::<ANY>((i, triangle), (met, t0), (&*corners, &error, packet.s[2]));
+        }
+    }
+    let Nearest { mut anew, mut open, .. } = nearest;
+    let (t, triangle) = (nearest.t.to_array(), nearest.triangle.to_array());
+    let (u, v) = (nearest.u.to_array(), nearest.v.to_array());
+    let mut found = [None; RAYS];
+    let mut hit = nearest.hit;
+    while hit != 0 {
+        let i = hit.trailing_zeros() as usize & (RAYS - 1);
+        hit &= hit - 1;
+        let id = few.triangles[triangle[i].to_bits() as usize].id;
+        found[i] = Some(RawHit { t: t[i], id, u: u[i], v: v[i] });
+    }
+    let mut limit = t;
+    for Other { bounds, id, ball } in &few.others {
+        let (met, t0) = packet.meets(bounds, S::F8::load(&limit));
+        let mut met = met & open & packet.reaches(ball);
+        let t0 = t0.to_array();
+        while met != 0 {
+            let i = met.trailing_zeros() as usize & (RAYS - 1);
+            met &= met - 1;
+            // One that lies as far as the limit shows in this way.
+            others.hit(*id, &rays[i], limit[i].next_up(), &mut |h: RawHit| {
+                if h.t < limit[i] && t0[i] <= h.t {
+                    (found[i], limit[i]) = (Some(h), h.t);
+                } else {
+                    anew |= 1 << i;
+                }
+                limit[i]
+            });
+            open &= !anew;
+            if ANY && found[i].is_some() {
+                open &= !(1 << i);
+            }
+        }
+    }
+    (found, anew)
+}
