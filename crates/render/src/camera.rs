@@ -121,14 +121,14 @@ impl Camera {
     /// The ray through `film`, in pixels from the top left corner, and the point of the lens that `lens` chooses, at a motion time.
     pub fn ray(&self, film: [f32; 2], lens: [f32; 2], time: f32) -> Ray {
         let frame = self.motion.as_ref().map(|m| CameraFrame::new(&m.at(f64::from(time))));
-        let (o, d) = self.from_frame(frame.as_ref().unwrap_or(&self.frame), film, lens);
+        let (o, d) = self.through(frame.as_ref().unwrap_or(&self.frame), film, lens);
         Ray { time, ..Ray::new(o, d) }
     }
 
     /// Origins and directions of [`ray`](Self::ray) for several rays, where the camera stands still.
     #[inline(always)]
     pub(crate) fn at_rest<R: Real>(&self, film: [R; 2], lens: [R; 2]) -> (Vec3<R>, Vec3<R>) {
-        self.from_frame(&self.frame, film, lens)
+        self.through(&self.frame, film, lens)
     }
 
     /// The camera moves.
@@ -137,7 +137,7 @@ impl Camera {
     }
 
     #[inline(always)]
-    fn from_frame<R: Real>(&self, frame: &CameraFrame, film: [R; 2], lens: [R; 2]) -> (Vec3<R>, Vec3<R>) {
+    fn through<R: Real>(&self, frame: &CameraFrame, film: [R; 2], lens: [R; 2]) -> (Vec3<R>, Vec3<R>) {
         let x = of::<R>(self.corner[0]) + film[0] * of(self.step[0]);
         let y = of::<R>(self.corner[1]) + film[1] * of(self.step[1]);
         let (mut o, mut d) = if self.perspective {

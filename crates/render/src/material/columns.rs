@@ -36,7 +36,8 @@ impl MaterialColumns {
         let none = TextureContext::default();
         let context = |k: usize| points.contexts.get(k).unwrap_or(&none);
         self.choices = material.choices;
-        self.n_lambda = if points.lambda.windows(2).all(|w| w[0].lambda == w[1].lambda) { 1 } else { n };
+        let same = |w: &[Wavelengths]| w[0].lambda.map(f32::to_bits) == w[1].lambda.map(f32::to_bits);
+        self.n_lambda = if points.lambda.windows(2).all(same) { 1 } else { n };
         self.n_reals = [0; MAX_REALS];
         self.n_spectra = [0; MAX_SPECTRA];
         for ((column, count), source) in self.reals.iter_mut().zip(&mut self.n_reals).zip(&material.reals) {
