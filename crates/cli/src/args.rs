@@ -9,6 +9,7 @@ use sparrow_mis::Mis;
 
 use crate::compare_cmd::CompareArgs;
 use crate::groom_cmd::GroomArgs;
+use crate::lecture_cmd::LectureArgs;
 use crate::plot_cmd::PlotArgs;
 use crate::race_cmd::RaceArgs;
 
@@ -37,6 +38,7 @@ pub(crate) enum Verb {
     Models(ModelsArgs),
     Verify(VerifyArgs),
     Groom(Box<GroomArgs>),
+    Lecture(LectureArgs),
 }
 
 /// Render a scene to OpenEXR, with an sRGB PNG beside it

@@ -21,9 +21,7 @@ pub(crate) fn install() {
         if RENDERING.load(Ordering::SeqCst) && !STOP.swap(true, Ordering::SeqCst) {
             // On a terminal, `^C` stands in the bar's line.
             let start = if io::stderr().is_terminal() { "\n" } else { "" };
-            console::log(format_args!(
-                "{start}stopping at the next tile and saving the picture; once more to end at once"
-            ));
+            console::log(format_args!("{start}stopping at the next tile; once more to end at once"));
             return;
         }
         // A file that is being written becomes whole first; none is begun after it.

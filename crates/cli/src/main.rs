@@ -19,6 +19,7 @@ mod images;
 mod info_cmd;
 mod interrupt;
 mod inventory;
+mod lecture_cmd;
 mod models_cmd;
 mod names;
 mod output;
@@ -55,6 +56,7 @@ fn main() -> ExitCode {
         Some(Verb::Models(a)) => (a.json, false, models_cmd::run(a)),
         Some(Verb::Verify(a)) => (a.json, false, verify_cmd::run(a)),
         Some(Verb::Groom(a)) => (a.json, a.quiet, groom_cmd::run(a)),
+        Some(Verb::Lecture(a)) => (a.json, a.quiet, lecture_cmd::run(a)),
         None => {
             // A broken pipe is no reason to complain about the help that nobody reads.
             let _ = Cli::command().print_help();

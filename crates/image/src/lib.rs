@@ -3,7 +3,7 @@
 //! - [`Image`] is what is read from PNG, JPEG, TGA, QOI, Radiance HDR, PFM and OpenEXR files. Samples stay as
 //!   wide as the file had them; [`Image::value`] gives them as linear numbers.
 //! - [`OutputImage`] is what is written as OpenEXR: any channels, windows, a colour space, attributes.
-//!   [`write_png`] writes a picture to look at.
+//!   [`write_png`] writes a picture to look at, [`encode_png`] makes its bytes.
 //! - [`metrics`] compares two pictures.
 //!
 //! Row 0 is the top row, whatever the file's order. No function panics on the contents of a file, and no
@@ -32,4 +32,4 @@ pub use self::error::ImageError;
 pub use self::exr_read::{ExrHeader, read_exr};
 pub use self::exr_write::{Attribute, OutputChannel, OutputImage, write_exr};
 pub use self::image::{Chromaticities, Image, Pixels};
-pub use self::png::write_png;
+pub use self::png::{encode_png, write_png};

@@ -1,4 +1,4 @@
-//! A picture to look at: [`write_png`].
+//! A picture to look at: [`write_png`], [`encode_png`].
 
 use std::path::Path;
 
@@ -16,17 +16,26 @@ use crate::{ImageError, atomic};
 /// [`ImageError::Mismatch`] where `rgb` has not `width * height` pixels, [`ImageError::Io`] where the file
 /// cannot be written; then nothing is left behind.
 pub fn write_png(path: &Path, width: usize, height: usize, rgb: &[[f32; 3]]) -> Result<(), ImageError> {
-    let mismatch = |what: String| ImageError::Mismatch(format!("{}: {what}", path.display()));
+    let file = encode_png(width, height, rgb)
+        .map_err(|what| ImageError::Mismatch(format!("{}: {what}", path.display())))?;
+    atomic::write(path, &file)
+}
+
+/// The bytes that [`write_png`] writes.
+///
+/// # Errors
+/// A sentence where `rgb` has not `width * height` pixels or they are too many.
+pub fn encode_png(width: usize, height: usize, rgb: &[[f32; 3]]) -> Result<Vec<u8>, String> {
     if rgb.is_empty() || width.checked_mul(height) != Some(rgb.len()) {
-        return Err(mismatch(format!("{} pixels do not make {width} x {height}", rgb.len())));
+        return Err(format!("{} pixels do not make {width} x {height}", rgb.len()));
     }
     let (Ok(w), Ok(h)) = (u32::try_from(width), u32::try_from(height)) else {
-        return Err(mismatch(format!("{width} x {height} is too large for a PNG; crop it")));
+        return Err(format!("{width} x {height} is too large for a PNG; crop it"));
     };
     let codes: Vec<u8> = rgb.iter().flatten().map(|v| to_srgb8(*v)).collect();
     let mut file = Vec::new();
     PngEncoder::new(&mut file)
         .write_image(&codes, w, h, ExtendedColorType::Rgb8)
-        .map_err(|e| mismatch(format!("cannot be encoded: {e}")))?;
-    atomic::write(path, &file)
+        .map_err(|e| format!("cannot be encoded: {e}"))?;
+    Ok(file)
 }

@@ -1,27 +1,48 @@
 //! Triangles over a grid, as PLY text.
 
-/// An ASCII PLY file of `nu` by `nv` cells of two triangles each. `vertex` gives position, normal, u and v at a corner of the grid.
+/// Position, normal, u and v at a corner of a grid.
+pub(super) type Vertex<'a> = Box<dyn Fn(u32, u32) -> [f64; 8] + 'a>;
+
+/// A grid of cells of two triangles each.
+pub(super) struct Grid<'a> {
+    /// Cells along u and v.
+    pub(super) cells: [u32; 2],
+    pub(super) vertex: Vertex<'a>,
+}
+
+/// An ASCII PLY file of one grid of `nu` by `nv` cells.
 pub(super) fn ply(nu: u32, nv: u32, vertex: impl Fn(u32, u32) -> [f64; 8]) -> String {
+    ply_of(&[Grid { cells: [nu, nv], vertex: Box::new(vertex) }])
+}
+
+/// An ASCII PLY file of several grids.
+pub(super) fn ply_of(grids: &[Grid<'_>]) -> String {
+    let sum = |f: fn([u32; 2]) -> u32| grids.iter().map(|g| f(g.cells)).sum::<u32>();
     let mut text = format!(
         "ply\nformat ascii 1.0\ncomment written by cargo run -p xtask -- assets\nelement vertex {}\n",
-        (nu + 1) * (nv + 1)
+        sum(|[nu, nv]| (nu + 1) * (nv + 1))
     );
     for name in ["x", "y", "z", "nx", "ny", "nz", "u", "v"] {
         text += &format!("property float {name}\n");
     }
-    text += &format!("element face {}\nproperty list uchar int vertex_indices\nend_header\n", 2 * nu * nv);
-    for j in 0..=nv {
-        for i in 0..=nu {
+    text += &format!(
+        "element face {}\nproperty list uchar int vertex_indices\nend_header\n",
+        sum(|[nu, nv]| 2 * nu * nv)
+    );
+    for Grid { cells: [nu, nv], vertex } in grids {
+        for (i, j) in (0..=*nv).flat_map(|j| (0..=*nu).map(move |i| (i, j))) {
             text += &vertex(i, j).map(short).join(" ");
             text.push('\n');
         }
     }
-    for j in 0..nv {
-        for i in 0..nu {
-            let a = j * (nu + 1) + i;
+    let mut first = 0;
+    for Grid { cells: [nu, nv], .. } in grids {
+        for (i, j) in (0..*nv).flat_map(|j| (0..*nu).map(move |i| (i, j))) {
+            let a = first + j * (nu + 1) + i;
             let d = a + nu + 1;
             text += &format!("3 {a} {} {}\n3 {a} {} {d}\n", a + 1, d + 1, d + 1);
         }
+        first += (nu + 1) * (nv + 1);
     }
     text
 }

@@ -3,7 +3,10 @@
 mod bulbs;
 mod cloth;
 mod grid;
+mod helix;
 mod herbert;
+mod horse;
+mod spool;
 mod textures;
 mod vase;
 
@@ -12,13 +15,27 @@ use std::path::Path;
 
 use sparrow_image::{Encoding, Image, Pixels, write_png};
 
-/// Writes `textures/*.png` and `meshes/*.ply` into the folder of the scenes.
+/// Files of text, by name.
+fn texts() -> Vec<(String, String)> {
+    let single = [
+        ("meshes/cloth.ply", cloth::ply()),
+        ("meshes/helix.ply", helix::ply()),
+        ("meshes/herbert.ply", herbert::ply()),
+        ("meshes/horse.ply", horse::ply()),
+        ("meshes/vase.ply", vase::ply()),
+        ("lecture/spool.inc", spool::curve()),
+    ];
+    let bulbs = bulbs::all().into_iter().map(|(name, text)| (format!("meshes/{name}.ply"), text));
+    single.map(|(name, text)| (name.to_owned(), text)).into_iter().chain(bulbs).collect()
+}
+
+/// Writes `textures/*.png`, `meshes/*.ply` and `lecture/spool.inc` into the folder of the scenes.
 ///
 /// # Errors
 /// The file that cannot be written, and why.
 pub fn write(scenes: &Path) -> Result<String, String> {
     let mut report = Vec::new();
-    for folder in ["textures", "meshes"] {
+    for folder in ["textures", "meshes", "lecture"] {
         let folder = scenes.join(folder);
         fs::create_dir_all(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
     }
@@ -27,18 +44,12 @@ pub fn write(scenes: &Path) -> Result<String, String> {
         png(&path, side, colour)?;
         report.push(path);
     }
-    for (name, text) in meshes() {
-        let path = scenes.join(format!("meshes/{name}.ply"));
+    for (name, text) in texts() {
+        let path = scenes.join(name);
         fs::write(&path, text).map_err(|e| format!("{}: {e}", path.display()))?;
         report.push(path);
     }
     Ok(report.iter().map(|p| format!("wrote {}", p.display())).collect::<Vec<_>>().join("\n"))
-}
-
-/// Meshes as PLY text, by name.
-fn meshes() -> Vec<(String, String)> {
-    let bodies = [("cloth", cloth::ply()), ("herbert", herbert::ply()), ("vase", vase::ply())];
-    bodies.map(|(name, text)| (name.to_owned(), text)).into_iter().chain(bulbs::all()).collect()
 }
 
 /// A colour of a square image at column `x`, row `y` from the top: sRGB codes.
@@ -64,7 +75,7 @@ mod tests {
         let fresh = std::env::temp_dir().join(format!("xtask-assets-{}", std::process::id()));
         write(&fresh).expect("assets");
         let mut names: Vec<String> = textures::ALL.iter().map(|(n, ..)| format!("textures/{n}")).collect();
-        names.extend(meshes().into_iter().map(|(n, _)| format!("meshes/{n}.ply")));
+        names.extend(texts().into_iter().map(|(name, _)| name));
         for name in names {
             let [old, new] = [scenes.join(&name), fresh.join(&name)].map(|p| fs::read(p).expect("a file"));
             assert!(old == new, "{name} differs; run `cargo run -p xtask -- assets`");

@@ -8,6 +8,7 @@ mod groom;
 mod info;
 #[cfg(unix)]
 mod interrupts;
+mod lecture;
 mod models;
 mod plot;
 mod race;

@@ -40,10 +40,10 @@ fn rays(rng: &mut Rng, n: usize) -> Vec<Ray> {
     let grid = |rng: &mut Rng| Vec3::from(rng.point().map(|x| (x * 4.0).round() * 0.25));
     let one = |i: usize| {
         let (mut o, mut p) = (Vec3::from(rng.point()) * 3.0, Vec3::from(rng.point()) + vec3(0.0, 1.0, 0.0));
-        if i % 3 == 0 {
+        if i.is_multiple_of(3) {
             p = grid(rng);
         }
-        if i % 7 == 0 {
+        if i.is_multiple_of(7) {
             o = grid(rng);
         }
         let mut ray = Ray::new(o, (p - o) * rng.between(0.1, 3.0));
@@ -52,10 +52,10 @@ fn rays(rng: &mut Rng, n: usize) -> Vec<Ray> {
             1 => (ray.d.y, ray.d.z) = (0.0, -0.0),
             2 => ray.t_max = rng.between(-0.5, 2.0),
             3 => ray.t_max = 1.0,
-            4 if i % 5 == 0 => ray.o.y = f32::NAN,
-            5 if i % 5 == 0 => ray.d = Vec3::splat(0.0),
-            6 if i % 5 == 0 => ray.t_max = f32::NAN,
-            7 if i % 5 == 0 => ray.d.z = f32::INFINITY,
+            4 if i.is_multiple_of(5) => ray.o.y = f32::NAN,
+            5 if i.is_multiple_of(5) => ray.d = Vec3::splat(0.0),
+            6 if i.is_multiple_of(5) => ray.t_max = f32::NAN,
+            7 if i.is_multiple_of(5) => ray.d.z = f32::INFINITY,
             _ => {}
         }
         ray
@@ -77,7 +77,7 @@ fn compare(name: &str, g: &Geometry, rays: &[Ray]) {
         let (mut found, mut any) = (vec![None; n], vec![false; n]);
         g.intersect_many(list, &mut found);
         g.occluded_many(list, &mut any);
-        let accept = |i: usize, h: &Hit| (h.prim as usize + i) % 3 != 0;
+        let accept = |i: usize, h: &Hit| !(h.prim as usize + i).is_multiple_of(3);
         let (mut found_where, mut any_where) = (vec![None; n], vec![false; n]);
         g.intersect_many_where(list, &mut found_where, accept);
         g.occluded_many_where(list, &mut any_where, accept);

@@ -20,6 +20,12 @@ pub fn exit_azimuth<R: Real>(p: u32, gamma_o: R, gamma_t: R) -> R {
     R::of(2.0 * f64::from(p)) * gamma_t - R::of(2.0) * gamma_o + R::of(f64::from(p % 2) * PI)
 }
 
+/// A density around the fibre.
+pub trait Azimuthal<R> {
+    /// The mean of the density, in 1/rad, over an interval of that width in rad around `x` in [-pi, pi].
+    fn mean(&self, x: R, width: R) -> R;
+}
+
 /// A logistic density, trimmed to [-pi, pi]. [Chiang2016]
 #[derive(Clone, Copy, Debug)]
 pub struct TrimmedLogistic<R> {
@@ -52,6 +58,36 @@ impl<R: Real> TrimmedLogistic<R> {
         let within = R::ONE - self.below - self.below;
         let (low, high) = (self.below + u * within, self.below + (R::ONE - u) * within);
         (self.s * (low / high).ln()).clamp(R::of(-PI), R::of(PI))
+    }
+    /// `P(X > |x|)` before it was trimmed.
+    #[inline(always)]
+    fn tail(&self, x: R) -> R {
+        let e = (-x.abs() * self.inv_s).exp();
+        e / (R::ONE + e)
+    }
+    /// Share of the interval from `a` to `b >= a`, as far as it lies within [-pi, pi].
+    #[inline(always)]
+    fn between(&self, a: R, b: R) -> R {
+        let [a, b] = [a, b].map(
+            #[inline(always)]
+            |x| x.clamp(R::of(-PI), R::of(PI)),
+        );
+        let (p, q) = (self.tail(a), self.tail(b));
+        let apart = a.lt(R::ZERO) & b.gt(R::ZERO);
+        R::select(apart, R::ONE - p - q, (p - q).abs()) * self.scale * self.s
+    }
+}
+
+impl<R: Real> Azimuthal<R> for TrimmedLogistic<R> {
+    #[inline(always)]
+    fn mean(&self, x: R, width: R) -> R {
+        let half = R::of(0.5) * width;
+        let turn = R::select(x.lt(R::ZERO), R::of(2.0 * PI), R::of(-2.0 * PI));
+        // What reaches over the far side of the fibre comes in again at the other end.
+        let whole = self.between(x - half, x + half) + self.between(x + turn - half, x + turn + half);
+        // Narrow intervals would lose the digits that their ends share.
+        let wide = width.gt(R::of(0.02) * self.s);
+        R::select(wide, whole / R::select(wide, width, R::ONE), self.value(x))
     }
 }
 
@@ -90,22 +126,6 @@ impl<R: Real> WrappedGauss<R> {
     pub fn value(&self, x: R) -> R {
         self.line(x) + self.line(x.abs() - R::of(2.0 * PI))
     }
-    /// The mean of the density over an interval around `x` in [-pi, pi]; zero where it is seven standard deviations away.
-    #[inline(always)]
-    pub fn mean(&self, x: R, width: R) -> R {
-        let reach = R::of(7.1) * self.std + R::of(0.5) * width;
-        let image = x.abs() - R::of(2.0 * PI);
-        let (near, wraps) = (x.abs().lt(reach), image.abs().lt(reach));
-        // Lanes that need neither cost nothing, and the sum is the same whoever else is in the batch.
-        let mut sum = R::ZERO;
-        if near.any() {
-            sum = self.mean_on_line(x, width).only_where(near);
-        }
-        if wraps.any() {
-            sum = sum + self.mean_on_line(image, width).only_where(wraps);
-        }
-        sum
-    }
     #[inline(always)]
     fn mean_on_line(&self, x: R, width: R) -> R {
         let half = R::of(0.5) * width;
@@ -119,5 +139,93 @@ impl<R: Real> WrappedGauss<R> {
     #[inline(always)]
     pub fn sample(&self, u: R) -> R {
         R::of(core::f64::consts::SQRT_2) * self.std * gauss_quantile(u)
+    }
+}
+
+impl<R: Real> Azimuthal<R> for WrappedGauss<R> {
+    /// Zero where the interval is seven standard deviations away.
+    #[inline(always)]
+    fn mean(&self, x: R, width: R) -> R {
+        let reach = R::of(7.1) * self.std + R::of(0.5) * width;
+        let image = x.abs() - R::of(2.0 * PI);
+        let (near, wraps) = (x.abs().lt(reach), image.abs().lt(reach));
+        // Lanes that need neither cost nothing, and the sum is the same whoever else is in the batch.
+        let mut sum = R::ZERO;
+        if near.any() {
+            sum = self.mean_on_line(x, width).only_where(near);
+        }
+        if wraps.any() {
+            sum = sum + self.mean_on_line(image, width).only_where(wraps);
+        }
+        sum
+    }
+}
+
+/// A Cauchy density around a circle.
+#[derive(Clone, Copy, Debug)]
+pub struct WrappedCauchy {
+    /// The mean of the cosine, from 0 to below 1.
+    pub mean_cosine: f64,
+}
+
+impl WrappedCauchy {
+    /// Draws `x` in [-pi, pi].
+    pub fn sample(&self, u: f64) -> f64 {
+        let (sin, cos) = Real::sin_cos(PI * (u - 0.5));
+        2.0 * Real::atan2((1.0 - self.mean_cosine) * sin, (1.0 + self.mean_cosine) * cos)
+    }
+}
+
+impl Azimuthal<f64> for WrappedCauchy {
+    fn mean(&self, x: f64, width: f64) -> f64 {
+        let r = self.mean_cosine;
+        if width < 1e-6 {
+            return (1.0 - r) * (1.0 + r) * (0.5 / PI) / (1.0 + r * r - 2.0 * r * Real::cos(x));
+        }
+        // The share below an angle: the tangent of half of it, stretched, is that of half a uniform angle; turns count one each.
+        let below = |x: f64| {
+            let y = wrapped(x);
+            let (sin, cos) = Real::sin_cos(0.5 * y);
+            Real::atan2((1.0 + r) * sin, (1.0 - r) * cos) / PI + (x - y) * (0.5 / PI)
+        };
+        (below(x + 0.5 * width) - below(x - 0.5 * width)) / width
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Means over an interval, by many values.
+    fn mean_of(d: &impl Azimuthal<f64>, x: f64, width: f64) -> f64 {
+        let n = 20_000;
+        let at = |k: i32| d.mean(wrapped(x + ((f64::from(k) + 0.5) / f64::from(n) - 0.5) * width), 0.0);
+        (0..n).map(at).sum::<f64>() / f64::from(n)
+    }
+
+    #[test]
+    fn means_over_intervals_are_means_of_values() {
+        for width in [1e-3, 0.05, 0.4, 2.0] {
+            for x in [0.0, 0.3, -1.5, 3.0, -3.1, PI] {
+                for s in [0.05, 0.4, 3.0] {
+                    let d = TrimmedLogistic::<f64>::new(s);
+                    let (mean, values) = (d.mean(x, width), mean_of(&d, x, width));
+                    // Narrow intervals take the value at their middle: at the kink on the far side it is the lowest.
+                    let kink = if width > 0.02 * s { 0.0 } else { width / (4.0 * s) };
+                    assert!(
+                        (mean - values).abs() < (1e-4 + kink) * values + 1e-9,
+                        "logistic {s} {x} {width}: {mean} {values}"
+                    );
+                }
+                for mean_cosine in [0.0, 0.5, 0.95] {
+                    let d = WrappedCauchy { mean_cosine };
+                    let (mean, values) = (d.mean(x, width), mean_of(&d, x, width));
+                    assert!(
+                        (mean - values).abs() < 1e-4 * values,
+                        "Cauchy {mean_cosine} {x} {width}: {mean} {values}"
+                    );
+                }
+            }
+        }
     }
 }

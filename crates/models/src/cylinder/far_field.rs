@@ -1,6 +1,6 @@
 //! Azimuthal terms of the far field: the mean over all offsets of the ray. [dEon2011, eq. 10]
 //!
-//! `N_p(phi) = 1/2 int A_p(h) D(phi - Phi_p(h)) dh` with a wrapped Gaussian D. The fibre's width is cut into segments of equal
+//! `N_p(phi) = 1/2 int A_p(h) D(phi - Phi_p(h)) dh` with the blur D of a rough surface. The fibre's width is cut into segments of equal
 //! angle; within one, `A_p` is that of its middle and `Phi_p` runs evenly. Segments keep the integral over `phi` exactly, for any
 //! width of D, and can be drawn from.
 
@@ -10,7 +10,7 @@ use sparrow_math::Real;
 use sparrow_spectra::Spectrum;
 
 use super::attenuation::Inside;
-use super::azimuthal::{WrappedGauss, exit_azimuth, wrapped};
+use super::azimuthal::{Azimuthal, exit_azimuth, wrapped};
 use crate::N_LOBES;
 
 /// Segments across a fibre that models use. Lobes of some degrees are then off by less than one percent of their peak.
@@ -62,7 +62,7 @@ impl<R: Real> Segment<R> {
     }
     /// The mean over both sides of the blurred density around the fibre.
     #[inline(always)]
-    fn density(&self, p: u32, phi: R, d: &[WrappedGauss<R>; 3]) -> R {
+    fn density(&self, p: u32, phi: R, d: &[impl Azimuthal<R>; 3]) -> R {
         let (exit, turn) = (self.exit(p, R::ZERO), self.turn(p));
         let d = &d[p as usize];
         R::of(0.5) * (d.mean(wrapped(phi - exit), turn) + d.mean(wrapped(phi + exit), turn))
@@ -105,7 +105,7 @@ impl<R: Real> FarField<R> {
     }
     /// All lobes at the azimuth `phi` in [-pi, pi].
     #[inline(always)]
-    pub fn around(&self, phi: R, d: &[WrappedGauss<R>; 3], segments: usize) -> Around<R> {
+    pub fn around(&self, phi: R, d: &[impl Azimuthal<R>; 3], segments: usize) -> Around<R> {
         let mut out = Around { n: [Spectrum::ZERO; N_LOBES], shares: [Spectrum::ZERO; N_LOBES] };
         for k in 0..segments / 2 {
             let s = self.segment(k, segments);

@@ -13,7 +13,7 @@ use core::f64::consts::PI;
 use sparrow_math::LocalDir;
 use sparrow_spectra::Spectrum;
 
-use crate::cylinder::azimuthal::{WrappedGauss, wrapped};
+use crate::cylinder::azimuthal::{Azimuthal, WrappedGauss, wrapped};
 use crate::cylinder::elliptic::Elliptic;
 use crate::cylinder::gaussian::{GaussianLobes, WIDTHS};
 use crate::cylinder::section::{Flat, Section};

@@ -1,4 +1,4 @@
-//! Fur: a cortex about a medulla that scatters, near field. [Yan2015], [Yan2017]
+//! Fur: a cortex about a medulla that scatters. [Yan2015], [Yan2017]
 //!
 //! Unscattered light leaves by R, TT, TRT and further lobes as in [`hair`](super::hair), where a passage leaves it
 //! `T = exp(-(sigma_c s_c + (sigma_m + sigma_s) s_m) / cos theta_t)` of itself with the chords `s_c` in the cortex and `s_m` in the medulla.
@@ -7,9 +7,9 @@
 //!
 //! The lobe of TT^s has the means along and around the fibre that random walks in the medulla have ([`Moments`]), as a lobe of [dEon2011]
 //! and a wrapped Cauchy density; later ones go evenly around the fibre. The papers tabulate profiles instead, over the offset too; their
-//! tables are not used. With a white cortex and medulla all light leaves.
+//! tables are not used. With a white cortex and medulla all light leaves. Far field: the mean over h.
 //!
-//! Limits: no far field; medulla and cortex have one index; what the rough cuticle does to scattered light is not told apart.
+//! Limits: medulla and cortex have one index; what the rough cuticle does to scattered light is not told apart.
 
 use core::f64::consts::PI;
 
@@ -18,7 +18,7 @@ use sparrow_spectra::Spectrum;
 
 use crate::cylinder::FibreDir;
 use crate::cylinder::attenuation::Inside;
-use crate::cylinder::azimuthal::{TrimmedLogistic, exit_azimuth, wrapped};
+use crate::cylinder::azimuthal::{Azimuthal, TrimmedLogistic, WrappedCauchy, exit_azimuth, wrapped};
 use crate::cylinder::longitudinal::{Longitudinal, tilted};
 use crate::cylinder::medulla::{MOST_FORWARD, Moments, chords};
 use crate::cylinder::roughness::{logistic_scale, variance};
@@ -29,6 +29,9 @@ use crate::{About, Lack, N_LOBES, ParamBlock, ParamInfo, Uniforms, fresnel};
 const SMOOTHEST: f64 = 0.02;
 /// Points of the mean reflectance of scattered light, around and along the fibre.
 const POINTS: [usize; 2] = [4, 8];
+
+/// Segments of equal angle across a fibre of the far field.
+const SEGMENTS: usize = 32;
 
 /// Fur.
 pub(super) type Fur<R> = Summed<R, Medullated>;
@@ -49,11 +52,12 @@ pub struct Medullated {
     /// Sine and cosine of the tilts of R, TT, TRT.
     tilts: [[f64; 2]; 3],
     h: f64,
+    far: bool,
 }
 
 impl Sum for Medullated {
     type Seen = SeenFur;
-    const ABOUT: About = About::new("cortex and scattering medulla in a rough dielectric cylinder", "Yan2015, Yan2017, Chiang2016")
+    const ABOUT: About = About::new("cortex and scattering medulla in a rough dielectric cylinder, near or far field", "Yan2015, Yan2017, Chiang2016")
         .anisotropic()
         .transmits()
         .lacks(&[
@@ -108,6 +112,8 @@ impl Sum for Medullated {
             .range(-20.0, 20.0)
             .soft(0.0, 10.0)
             .doc("Tilt of the scales, positive as in pbrt-v4."),
+        ParamInfo::choice("field", &["near", "far"])
+            .doc("Where the ray met the fibre, or the mean over its width."),
     ];
 
     fn new(p: &ParamBlock<f64>) -> Self {
@@ -126,37 +132,45 @@ impl Sum for Medullated {
             azimuthal: TrimmedLogistic::new(logistic_scale(p.reals[6].max(SMOOTHEST))),
             tilts: [-2.0 * tilt, tilt, 4.0 * tilt].map(|t| Real::sin_cos(t).into()),
             h: p.h,
+            far: p.choices[0] != 0,
         }
     }
 
     fn seen_from(&self, wo: LocalDir<f64>) -> SeenFur {
         let o = FibreDir::new(wo);
         let theta = [o.sin, o.cos];
-        let inside = Inside::new(theta, self.h, self.eta);
-        let [r, tt, trt, rest, tt_s, trt_s, rest_s] = self.shares(&inside);
-        let (gamma_o, gamma_t) = (Real::asin(self.h), inside.angle());
-        let lobe = |p: usize, a: Spectrum<f64>| Way {
-            a,
+        let lobe = |p: usize| Way {
             m: self.longitudinal[p],
             theta: tilted(theta, self.tilts[p]),
-            exit: exit_azimuth(p as u32, gamma_o, gamma_t),
+            exit: Some(p),
             around: Around::Logistic(self.azimuthal),
         };
-        let even =
-            |a: Spectrum<f64>, m: Longitudinal<f64>| Way { a, m, theta, exit: 0.0, around: Around::Even };
+        let even = |m: Longitudinal<f64>| Way { m, theta, exit: None, around: Around::Even };
         let [once, twice] = [self.moments, Moments { along: self.moments.along.sqr(), ..self.moments }]
             .map(|moments| Longitudinal::new(moments.variance()));
         let ways = [
-            lobe(0, r),
-            lobe(1, tt),
-            lobe(2, trt),
-            even(rest, self.longitudinal[2]),
-            Way { m: once, around: Around::Cauchy(self.moments.around), ..lobe(1, tt_s) },
-            even(trt_s, twice),
-            even(rest_s, twice),
+            lobe(0),
+            lobe(1),
+            lobe(2),
+            even(self.longitudinal[2]),
+            Way {
+                m: once,
+                around: Around::Cauchy(WrappedCauchy { mean_cosine: self.moments.around }),
+                ..lobe(1)
+            },
+            even(twice),
+            even(twice),
         ];
-        let sum = ways.iter().map(|way| way.a.average()).sum::<f64>().max(1e-300);
-        SeenFur { o, ways, sum }
+        let mut segments = [Segment::NONE; SEGMENTS];
+        if self.far {
+            for (k, segment) in segments.iter_mut().enumerate() {
+                *segment = self.segment(theta, k);
+            }
+        } else {
+            segments[0] = self.point(theta, self.h);
+        }
+        let n_segments = if self.far { SEGMENTS } else { 1 };
+        SeenFur::new(o, ways, segments, n_segments)
     }
 }
 
@@ -164,6 +178,27 @@ impl Sum for Medullated {
 const WAYS: usize = 7;
 
 impl Medullated {
+    /// What meets the fibre at the offset `h`.
+    fn point(&self, theta: [f64; 2], h: f64) -> Segment {
+        let inside = Inside::new(theta, h, self.eta);
+        let (gamma_o, gamma_t) = (Real::asin(h), inside.angle());
+        let exits = [0, 1, 2].map(|p| exit_azimuth(p, gamma_o, gamma_t));
+        Segment { a: self.shares(&inside), exits, turns: [0.0; 3] }
+    }
+    /// What meets the `k`-th segment: its middle, with the share of the width that it has.
+    fn segment(&self, theta: [f64; 2], k: usize) -> Segment {
+        let step = PI / SEGMENTS as f64;
+        let (sin, cos) = Real::sin_cos((k as f64 + 0.5) * step - 0.5 * PI);
+        let inside = Inside::new(theta, sin, self.eta);
+        let slope = cos * inside.over_eta / inside.gamma_t[1].max(1e-9);
+        let share = cos * Real::sin(0.5 * step);
+        let middle = self.point(theta, sin);
+        Segment {
+            a: middle.a.map(|a| a * share),
+            turns: [0.0, 2.0, 4.0].map(|twice_p| (step * (twice_p * slope - 2.0)).abs()),
+            ..middle
+        }
+    }
     /// `F_l`
     fn layered(&self, f: f64) -> f64 {
         self.layers * f / (1.0 + (self.layers - 1.0) * f)
@@ -228,27 +263,24 @@ fn lerp(a: f64, b: f64, t: f64) -> f64 {
 enum Around {
     /// As on a rough cylinder.
     Logistic(TrimmedLogistic<f64>),
-    /// A wrapped Cauchy density of this mean cosine.
-    Cauchy(f64),
+    /// As out of the medulla.
+    Cauchy(WrappedCauchy),
     Even,
 }
 
 impl Around {
-    /// Density in 1/rad at `x` in [-pi, pi] from the exit.
-    fn value(&self, x: f64) -> f64 {
+    /// Mean density in 1/rad over an interval of that width around `x` in [-pi, pi] from the exit.
+    fn mean(&self, x: f64, width: f64) -> f64 {
         match self {
-            Around::Logistic(d) => d.value(x),
-            Around::Cauchy(r) => (1.0 - r) * (1.0 + r) * (0.5 / PI) / (1.0 + r * r - 2.0 * r * Real::cos(x)),
+            Around::Logistic(d) => d.mean(x, width),
+            Around::Cauchy(d) => d.mean(x, width),
             Around::Even => 0.5 / PI,
         }
     }
     fn sample(&self, u: f64) -> f64 {
         match self {
             Around::Logistic(d) => d.sample(u),
-            Around::Cauchy(r) => {
-                let (sin, cos) = Real::sin_cos(PI * (u - 0.5));
-                2.0 * Real::atan2((1.0 - r) * sin, (1.0 + r) * cos)
-            }
+            Around::Cauchy(d) => d.sample(u),
             Around::Even => 2.0 * PI * u,
         }
     }
@@ -257,19 +289,29 @@ impl Around {
 /// One way of leaving.
 #[derive(Clone, Copy, Debug)]
 struct Way {
-    a: Spectrum<f64>,
     m: Longitudinal<f64>,
     /// The viewer's inclination, tilted.
     theta: [f64; 2],
-    exit: f64,
+    /// The lobe with whose exit it leaves; none where it leaves evenly.
+    exit: Option<usize>,
     around: Around,
 }
 
-impl Way {
-    /// `M N`
-    fn shape(&self, theta_i: [f64; 2], phi: f64) -> f64 {
-        let m = self.m.value(theta_i, self.theta);
-        if m > 0.0 { m * self.around.value(wrapped(phi - self.exit)) } else { 0.0 }
+/// Light that met one place across the fibre, or a part of its width.
+#[derive(Clone, Copy, Debug)]
+struct Segment {
+    /// `A_p` of every way, times the share of the width.
+    a: [Spectrum<f64>; WAYS],
+    /// Exits of R, TT, TRT from its middle, and by how much they turn over it.
+    exits: [f64; 3],
+    turns: [f64; 3],
+}
+
+impl Segment {
+    const NONE: Segment = Segment { a: [Spectrum::ZERO; WAYS], exits: [0.0; 3], turns: [0.0; 3] };
+
+    fn exit(&self, way: &Way) -> [f64; 2] {
+        way.exit.map_or([0.0; 2], |p| [self.exits[p], self.turns[p]])
     }
 }
 
@@ -277,17 +319,67 @@ impl Way {
 pub struct SeenFur {
     o: FibreDir<f64>,
     ways: [Way; WAYS],
+    segments: [Segment; SEGMENTS],
+    n_segments: usize,
+    /// The light of each way, and of all: means over the wavelengths.
+    chances: [f64; WAYS],
     sum: f64,
 }
 
 impl SeenFur {
+    fn new(o: FibreDir<f64>, ways: [Way; WAYS], segments: [Segment; SEGMENTS], n_segments: usize) -> SeenFur {
+        let chances = core::array::from_fn(|k| segments[..n_segments].iter().map(|s| s.a[k].average()).sum());
+        let sum = chances.iter().sum::<f64>().max(1e-300);
+        SeenFur { o, ways, segments, n_segments, chances, sum }
+    }
+    fn segments(&self) -> &[Segment] {
+        &self.segments[..self.n_segments]
+    }
     /// `A M N` of every way.
     fn scattered(&self, wi: LocalDir<f64>) -> [Spectrum<f64>; WAYS] {
         let i = FibreDir::new(wi);
         let (theta_i, phi) = ([i.sin, i.cos], self.o.azimuth_to(&i));
-        self.ways.map(|way| way.a * way.shape(theta_i, phi))
+        core::array::from_fn(|k| {
+            let way = &self.ways[k];
+            let m = way.m.value(theta_i, way.theta);
+            if !(m > 0.0) {
+                return Spectrum::ZERO;
+            }
+            let mut sum = Spectrum::ZERO;
+            for s in self.segments() {
+                let [exit, turn] = s.exit(way);
+                sum += s.a[k] * way.around.mean(wrapped(phi - exit), turn);
+            }
+            sum * m
+        })
+    }
+    /// An exit of the `k`-th way, and a uniform number that is left of `u`.
+    fn draw_exit(&self, k: usize, u: f64) -> [f64; 2] {
+        let mut x = u * self.chances[k];
+        let mut drawn = [0.0, 0.5];
+        for s in self.segments() {
+            let chance = s.a[k].average();
+            let within = (x / chance.max(1e-300)).min(1.0);
+            let [exit, turn] = s.exit(&self.ways[k]);
+            drawn = if turn > 0.0 {
+                // Coarse steps along the segment, which the roughness blurs; the rest of the number is left over.
+                let fine = within * STEPS;
+                let whole = fine.floor().min(STEPS - 1.0);
+                [exit + ((whole + 0.5) / STEPS - 0.5) * turn, fine - whole]
+            } else {
+                [exit, within]
+            };
+            if x < chance {
+                break;
+            }
+            x -= chance;
+        }
+        drawn
     }
 }
+
+/// Steps along a segment.
+const STEPS: f64 = 256.0;
 
 impl Seen for SeenFur {
     fn f_cos_pdf(&self, wi: LocalDir<f64>) -> (Spectrum<f64>, f64) {
@@ -302,13 +394,12 @@ impl Seen for SeenFur {
 
     fn draw(&self, u: Uniforms<f64>) -> Option<LocalDir<f64>> {
         let mut x = u.lobe * self.sum;
-        let last = self.ways.iter().rposition(|way| way.a.average() > 0.0)?;
-        for (k, way) in self.ways.iter().enumerate() {
-            let chance = way.a.average();
+        let last = self.chances.iter().rposition(|&chance| chance > 0.0)?;
+        for (k, (&chance, way)) in self.chances.iter().zip(&self.ways).enumerate() {
             if x < chance || k == last {
-                let left = (x / chance).min(1.0);
+                let [exit, left] = self.draw_exit(k, (x / chance).min(1.0));
                 let sin = way.m.sample(way.theta, u.dir);
-                return Some(self.o.turned(sin, way.exit + way.around.sample(left)));
+                return Some(self.o.turned(sin, exit + way.around.sample(left)));
             }
             x -= chance;
         }
@@ -345,11 +436,11 @@ mod tests {
     fn a_cauchy_density_has_its_mean_and_is_drawn() {
         let n = 4000;
         for r in [-0.4, 0.0, 0.7] {
-            let d = Around::Cauchy(r);
+            let d = WrappedCauchy { mean_cosine: r };
             let x = |k: i32| (f64::from(k) + 0.5) / f64::from(n);
             let step = 2.0 * PI / f64::from(n);
             let mean: f64 =
-                (0..n).map(|k| d.value(2.0 * PI * x(k)) * Real::cos(2.0 * PI * x(k)) * step).sum();
+                (0..n).map(|k| d.mean(2.0 * PI * x(k), 0.0) * Real::cos(2.0 * PI * x(k)) * step).sum();
             let drawn: f64 = (0..n).map(|k| Real::cos(d.sample(x(k))) / f64::from(n)).sum();
             assert!((mean - r).abs() < 1e-9 && (drawn - r).abs() < 1e-3, "{r}: {mean} {drawn}");
         }

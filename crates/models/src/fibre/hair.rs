@@ -1,10 +1,10 @@
-//! Hair and fur after Chiang et al., as pbrt-v4's `Material "hair"` means it: the near field of a rough dielectric cylinder.
+//! Hair and fur after Chiang et al., as pbrt-v4's `Material "hair"` means it: a rough dielectric cylinder.
 //! [Chiang2016]
 //!
 //! `q = sum_p M_p(theta_i, theta_o + shift_p) A_p(h) N_p(phi)` over R, TT, TRT and the rest, with the energy-conserving `M` of
 //! [dEon2011] and a trimmed logistic `N`. The angle inside follows from the viewer's inclination alone, so that energy is kept
 //! exactly; for that, viewer and light may not be exchanged. Signs as in pbrt-v4: a tilt `alpha > 0` centres R on
-//! `theta_i = 2 alpha - theta_o`; `h = 2 v - 1` across the curve; `sigma_a` per radius.
+//! `theta_i = 2 alpha - theta_o`; `h = 2 v - 1` across the curve; `sigma_a` per radius. Near field as there; far field: its mean over h.
 //!
 //! Limits: one roughness for all lobes, a circular section; roughness below 0.02 counts as 0.02.
 //! Errata: pbrt-v4's logarithm of I_0 takes M off by up to 2 % where its series meet; ours is that of `Real::i0e`.
@@ -17,6 +17,7 @@ use sparrow_spectra::Spectrum;
 use crate::bcsdf::weighed;
 use crate::cylinder::attenuation::Inside;
 use crate::cylinder::azimuthal::{TrimmedLogistic, exit_azimuth, wrapped};
+use crate::cylinder::far_field::{FarField, SEGMENTS};
 use crate::cylinder::longitudinal::{Longitudinal, tilted};
 use crate::cylinder::roughness::{logistic_scale, variance};
 use crate::cylinder::{FibreDir, LobeChoice, colour};
@@ -25,12 +26,13 @@ use crate::{About, Bcsdf, BsdfSample, Lack, Model, N_LOBES, ParamBlock, ParamInf
 /// The least roughness: below it single precision runs out of digits.
 const SMOOTHEST: f64 = 0.02;
 
-/// A hair at one offset of the ray.
+/// A hair.
 #[derive(Clone, Copy, Debug)]
 pub struct Hair<R> {
     sigma_a: Spectrum<R>,
     eta: R,
     h: R,
+    far: bool,
     /// `M` of R, TT, and of TRT and the rest.
     longitudinal: [Longitudinal<R>; 3],
     azimuthal: TrimmedLogistic<R>,
@@ -39,7 +41,7 @@ pub struct Hair<R> {
 }
 
 impl<R: Real> Model<R> for Hair<R> {
-    const ABOUT: About = About::new("hair as in pbrt-v4: rough dielectric cylinder, near field", "Chiang2016, dEon2011")
+    const ABOUT: About = About::new("hair as in pbrt-v4: rough dielectric cylinder, near or far field", "Chiang2016, dEon2011")
         .anisotropic()
         .transmits()
         .lacks(&[
@@ -63,6 +65,8 @@ impl<R: Real> Model<R> for Hair<R> {
             .soft(0.0, 10.0)
             .doc("Tilt of the scales, positive as in pbrt-v4."),
         ParamInfo::choice("absorption", &["sigma_a", "color"]).doc("Which of the two is meant."),
+        ParamInfo::choice("field", &["near", "far"])
+            .doc("Where the ray met the fibre, or the mean over its width."),
     ];
 
     #[inline(always)]
@@ -81,6 +85,7 @@ impl<R: Real> Model<R> for Hair<R> {
             sigma_a,
             eta,
             h: p.h,
+            far: p.choices[1] != 0,
             longitudinal: [
                 Longitudinal::new(v),
                 Longitudinal::new(R::of(0.25) * v),
@@ -106,16 +111,8 @@ struct Seen<R> {
     /// Probabilities of the lobes, not normalised, and their sum.
     chances: [R; N_LOBES],
     sum: R,
-    gamma_o: R,
-    gamma_t: R,
-}
-
-impl<R: Real> Seen<R> {
-    /// `Phi_p`
-    #[inline(always)]
-    fn exit(&self, p: u32) -> R {
-        exit_azimuth(p, self.gamma_o, self.gamma_t)
-    }
+    /// `Phi_p` of R, TT, TRT.
+    exits: [R; 3],
 }
 
 impl<R: Real> Hair<R> {
@@ -123,10 +120,22 @@ impl<R: Real> Hair<R> {
     fn seen(&self, wo: LocalDir<R>) -> Seen<R> {
         let o = FibreDir::new(wo);
         let inside = Inside::new([o.sin, o.cos], self.h, self.eta);
-        let shares = inside.attenuation(self.sigma_a);
+        let shares =
+            if self.far { self.far_field(&o).shares(SEGMENTS) } else { inside.attenuation(self.sigma_a) };
+        let (gamma_o, gamma_t) = (self.h.asin(), inside.angle());
+        let exits = [
+            exit_azimuth(0, gamma_o, gamma_t),
+            exit_azimuth(1, gamma_o, gamma_t),
+            exit_azimuth(2, gamma_o, gamma_t),
+        ];
         let chances = [shares[0].average(), shares[1].average(), shares[2].average(), shares[3].average()];
         let sum = ((chances[0] + chances[1]) + (chances[2] + chances[3])).max(R::of(1e-30));
-        Seen { o, shares, chances, sum, gamma_o: self.h.asin(), gamma_t: inside.angle() }
+        Seen { o, shares, chances, sum, exits }
+    }
+
+    #[inline(always)]
+    fn far_field(&self, o: &FibreDir<R>) -> FarField<R> {
+        FarField { theta: [o.sin, o.cos], eta: self.eta, sigma_a: self.sigma_a }
     }
 
     /// The viewer's inclination, tilted for lobe `p`.
@@ -138,7 +147,7 @@ impl<R: Real> Hair<R> {
     /// `M_p N_p` of R, TT or TRT.
     #[inline(always)]
     fn shape(&self, seen: &Seen<R>, p: usize, theta_i: [R; 2], phi: R) -> R {
-        let away = wrapped(phi - seen.exit(p as u32));
+        let away = wrapped(phi - seen.exits[p]);
         self.longitudinal[p].value(theta_i, self.tilted(&seen.o, p)) * self.azimuthal.value(away)
     }
 
@@ -157,10 +166,33 @@ impl<R: Real> Hair<R> {
     }
 }
 
+impl<R: Real> Hair<R> {
+    /// `q` of every lobe of the far field.
+    #[inline(always)]
+    fn far_lobes(&self, o: &FibreDir<R>, wi: LocalDir<R>) -> [Spectrum<R>; N_LOBES] {
+        let i = FibreDir::new(wi);
+        let d = [self.azimuthal; 3];
+        let [r, tt, trt, rest] = self.far_field(o).around(o.azimuth_to(&i), &d, SEGMENTS).n;
+        let theta = [i.sin, i.cos];
+        let m = [
+            self.longitudinal[0].value(theta, self.tilted(o, 0)),
+            self.longitudinal[1].value(theta, self.tilted(o, 1)),
+            self.longitudinal[2].value(theta, self.tilted(o, 2)),
+            self.longitudinal[2].value(theta, [o.sin, o.cos]),
+        ];
+        [r * m[0], tt * m[1], trt * m[2], rest * m[3]]
+    }
+}
+
 impl<R: Real> Bcsdf<R> for Hair<R> {
     #[inline(always)]
     fn f_cos_pdf(&self, wo: LocalDir<R>, wi: LocalDir<R>) -> (Spectrum<R>, R) {
         let seen = self.seen(wo);
+        if self.far {
+            let [r, tt, trt, rest] = self.far_lobes(&seen.o, wi);
+            let q = (r + tt) + (trt + rest);
+            return (q, q.average() / seen.sum);
+        }
         let [r, tt, trt, rest] = self.shapes(&seen, wi);
         let (a, c) = (&seen.shares, &seen.chances);
         let q = (a[0] * r + a[1] * tt) + (a[2] * trt + a[3] * rest);
@@ -171,6 +203,9 @@ impl<R: Real> Bcsdf<R> for Hair<R> {
     #[inline(always)]
     fn lobes(&self, wo: LocalDir<R>, wi: LocalDir<R>) -> [Spectrum<R>; N_LOBES] {
         let seen = self.seen(wo);
+        if self.far {
+            return self.far_lobes(&seen.o, wi);
+        }
         let [r, tt, trt, rest] = self.shapes(&seen, wi);
         let a = &seen.shares;
         [a[0] * r, a[1] * tt, a[2] * trt, a[3] * rest]
@@ -185,8 +220,19 @@ impl<R: Real> Bcsdf<R> for Hair<R> {
         let theta_o = [lobe.pick([r[0], tt[0], trt[0], o.sin]), lobe.pick([r[1], tt[1], trt[1], o.cos])];
         let [m0, m1, m2] = &self.longitudinal;
         let m = Longitudinal::select(lobe.from[1], m2, &Longitudinal::select(lobe.from[0], m1, m0));
-        let around = lobe.pick([seen.exit(0), seen.exit(1), seen.exit(2), R::ZERO]);
-        let away = R::select(lobe.from[2], R::of(2.0 * PI) * lobe.left, self.azimuthal.sample(lobe.left));
+        let (around, left) = if self.far {
+            let [exit, left] = self.far_field(o).draw(
+                #[inline(always)]
+                |v| lobe.pick(v),
+                lobe.left,
+                SEGMENTS,
+            );
+            (exit, left)
+        } else {
+            let [r, tt, trt] = seen.exits;
+            (lobe.pick([r, tt, trt, R::ZERO]), lobe.left)
+        };
+        let away = R::select(lobe.from[2], R::of(2.0 * PI) * left, self.azimuthal.sample(left));
 
         weighed(self, wo, o.turned(m.sample(theta_o, u.dir), around + away))
     }

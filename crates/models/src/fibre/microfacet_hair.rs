@@ -14,7 +14,7 @@
 //! Limits: single scattering at each surface; what is reflected inside more than once is left out; with roughness below 0.1 the nodes
 //! of TRT stand apart.
 
-use core::f64::consts::{FRAC_PI_2, PI};
+use core::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use sparrow_math::{LocalDir, Real, Vec3};
 use sparrow_spectra::Spectrum;
@@ -34,6 +34,8 @@ const NODES: usize = 32;
 const FEW: usize = 8;
 /// Least slope width.
 const ROUGHNESS: f64 = 0.02;
+/// A little less than a right angle.
+const RIGHT: f64 = FRAC_PI_2 - 1e-4;
 /// Least probability of a lobe, before normalisation.
 const LEAST: f64 = 0.02;
 
@@ -254,6 +256,11 @@ impl SeenFacets {
         }
         [self.over_width(wi, true), self.over_width(wi, false)]
     }
+    /// How far around the fibre from a vector's azimuth scales face it, in rad; by its components along and across the fibre.
+    fn facing(&self, along: f64, across: f64) -> f64 {
+        let [s, c] = self.of.scales.tilt;
+        Real::acos((-s * along / (c * across).max(1e-9)).clamp(-1.0, 1.0)).min(PI - 1e-4)
+    }
     /// R of the far field: the value, over the part of the width that sees the light too, or the density.
     ///
     /// The azimuth of the normal is `psi = psi_h + atan(k tan x)` from that of the half vector, with which `D` becomes `cos^4 x`
@@ -268,15 +275,15 @@ impl SeenFacets {
         let [along, around] = scales.ggx.alphas();
         let slope = ((1.0 - C) * (1.0 + C)).max(0.0) * (around / along).sqr();
         let k = ((slope + (C * around).sqr()) / (slope + C.sqr()).max(1e-12)).min(1.0).sqrt().max(around);
-        // Limits of psi - psi_h, from the azimuths that viewer and light see.
-        let right = FRAC_PI_2 - 1e-4;
-        let to_o = turn(half, self.o.across);
-        let (mut low, mut high) = ((to_o - right).max(-right), (to_o + right).min(right));
+        // Limits of psi - psi_h, from the azimuths whose scales face the viewer, on his side of the fibre, the half vector and the light.
+        let seen = self.facing(sum.x, flat);
+        let seen_o = self.facing(self.o.sin, self.o.cos).min(RIGHT);
+        let mut limits = within([-seen, seen], turn(half, self.o.across), seen_o);
         if value {
-            let to_i = turn(half, FibreDir::new(wi).across);
-            (low, high) = (low.max(to_i - right), high.min(to_i + right));
+            let i = FibreDir::new(wi);
+            limits = within(limits, turn(half, i.across), self.facing(i.sin, i.cos));
         }
-        let (low, high) = (bent(low, k), bent(high, k));
+        let [low, high] = limits.map(|x| bent(x, k));
         if low >= high {
             return 0.0;
         }
@@ -345,7 +352,13 @@ impl Seen for SeenFacets {
     }
 }
 
-/// `atan(tan x / k)`, x in [-pi/2, pi/2].
+/// The part of the limits, two angles in [-pi, pi], that lies within `reach` of `around`; all of it where that has two parts.
+fn within([low, high]: [f64; 2], around: f64, reach: f64) -> [f64; 2] {
+    let (a, b) = (around - reach, around + reach);
+    [if b - TAU > low { low } else { low.max(a) }, if a + TAU < high { high } else { high.min(b) }]
+}
+
+/// `atan(tan x / k)`, in the quadrant of x.
 fn bent(x: f64, k: f64) -> f64 {
     let (sin, cos) = Real::sin_cos(x);
     Real::atan2(sin, k * cos)

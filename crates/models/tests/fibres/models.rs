@@ -280,3 +280,49 @@ fn the_far_field_of_facets_is_the_mean_of_the_near_field() {
         assert!((mean / whole - 1.0).abs() < 1e-4, "{aspect} {tilt}: {mean} {whole}");
     }
 }
+
+/// The mean over h of all lobes of a model, its last choice `field`, against its far field.
+#[test]
+fn far_fields_are_the_mean_of_near_fields() {
+    use FibreKind::{EllipticalHair, Fur, Hair, ZinkeWeber};
+    let fur = [1.55, 0.6, 2.0, 0.4, 1.5, 0.3, 0.3, 3.0];
+    // Segments hold the light of their middle: half a percent, and more where the medulla ends within one.
+    let cases: [(FibreKind, &[u8], &[f64], f64); 4] = [
+        (Hair, &[0], &[1.55, 0.3, 0.35, 3.0], 5e-3),
+        (Fur, &[], &fur, 1e-2),
+        (ZinkeWeber, &[], &[1.55, 0.3, 0.35, 3.0], 5e-3),
+        (EllipticalHair, &[], &[1.55, 0.3, 0.35, 3.0, 0.7], 5e-3),
+    ];
+    for (kind, choices, reals, tolerance) in cases {
+        let at = |h: f64, field: u8| bind(kind, h, &[choices, &[field]].concat(), reals, &[0.2]);
+        for (wo, wi) in [(dir(20.0, 35.0), dir(-10.0, 80.0)), (dir(-50.0, 0.0), dir(40.0, 170.0))] {
+            let n = 2000;
+            // Evenly in the angle, as the light at the rims changes fast.
+            let near = |k: i32| {
+                let gamma = ((f64::from(k) + 0.5) / f64::from(n) - 0.5) * PI;
+                at(Real::sin(gamma), 0).f_cos(wo, wi).0[0] * Real::cos(gamma) * PI / f64::from(2 * n)
+            };
+            let (mean, far) = ((0..n).map(near).sum::<f64>(), at(0.0, 1).f_cos(wo, wi).0[0]);
+            assert!((mean - far).abs() < tolerance * far + 1e-6, "{kind:?}: {mean} {far}");
+        }
+    }
+}
+
+#[test]
+fn facets_that_lean_away_are_left_out_of_the_density() {
+    // Scales of 20 degrees on a flat fibre, seen from where a part of them is turned away.
+    let m = bind(FibreKind::MicrofacetHair, 0.0, &[1, 1], &[1.34, 0.06, 0.66, 20.0, 2.0], &[0.0]);
+    let wo = LocalDir::new(vec3(-0.5765, -0.4216, 0.7).normalized());
+    let whole = over_sphere(400, |wi| m.pdf(wo, wi));
+    // Most of what is lost depends on the place across the fibre.
+    let [n, few] = [4096, 8];
+    let u = |k: u32, n: u32| (f64::from(k) + 0.5) / f64::from(n);
+    let kept = (0..n * few * few)
+        .filter(|k| {
+            let dir = [u(k / n % few, few), u(k / (n * few), few)];
+            m.sample(wo, Uniforms { lobe: u(k % n, n), dir }).valid
+        })
+        .count();
+    let share = kept as f64 / f64::from(n * few * few);
+    assert!(share < 0.99 && (whole - share).abs() < 1e-3, "{whole} {share}");
+}
