@@ -215,7 +215,6 @@ impl Triangles {
             p: mix(b, p),
             p_error: mix(b.map(f32::abs), p.map(Vec3::abs)) * gamma(6),
             n: self.normal(p, self.shading_normal(at, b)),
-            uv: self.parametrisation(at).at(b),
             wi: Vec3::splat(0.0),
             distance: 0.0,
             pdf,

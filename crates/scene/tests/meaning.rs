@@ -357,6 +357,7 @@ fn integrators_resolve_to_ours() {
         (i.name, i.mis.to_string().as_str(), i.light_sampler),
         (IntegratorName::DirectLighting, "power:1.5", LightSamplerName::Power)
     );
+    assert_eq!(integrator("\"reference\"").name, IntegratorName::Reference);
     let i = integrator("\"simplepath\" \"bool samplelights\" false");
     assert_eq!(i.mis.to_string(), "bsdf-only");
 }

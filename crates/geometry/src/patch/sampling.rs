@@ -39,7 +39,6 @@ impl Patches {
             p,
             p_error,
             n: self.shading_normal(prim, u, v).map_or(n, |ns| n.facing(ns)),
-            uv: self.uv(prim, u, v),
             wi: Vec3::splat(0.0),
             distance: 0.0,
             pdf: pdf as f32,

@@ -30,10 +30,7 @@ fn check(g: &Geometry, from: Vec3<f32>, rng: &mut Rng, n: u32, what: &str) -> f6
         if (hit.t / s.distance - 1.0).abs() < 1e-3 {
             sum += 1.0 / f64::from(s.pdf);
             let p = g.surface(&ray, &hit);
-            assert!(
-                (p.uv[0] - s.uv[0]).abs() + (p.uv[1] - s.uv[1]).abs() < 0.02 || s.pdf > 1e5,
-                "{what}: {p:?} {s:?}"
-            );
+            assert!((p.p - s.p).length() < 2e-3 * s.distance, "{what}: {p:?} {s:?}");
             let side = p.ng.dot(s.n);
             assert!(side > 0.9, "{what}: normals {:?} and {:?}", p.ng, s.n);
             if p.ng.dot(s.wi).abs() > 0.05 {
