@@ -224,6 +224,8 @@ pub(crate) struct VerifyArgs {
 pub(crate) enum Integrator {
     /// Path tracer
     Path,
+    /// Path tracer, one path at a time: slower, the same picture to the bit
+    Reference,
     /// One bounce of light, and specular chains
     Directlighting,
 }

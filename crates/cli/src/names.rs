@@ -28,6 +28,7 @@ pub(crate) fn randomization(name: RandomizeName) -> &'static str {
 pub(crate) fn integrator(name: IntegratorName) -> &'static str {
     match name {
         IntegratorName::Path => "path",
+        IntegratorName::Reference => "reference",
         IntegratorName::DirectLighting => "directlighting",
     }
 }

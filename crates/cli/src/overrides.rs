@@ -29,6 +29,7 @@ pub(crate) fn apply(args: &RenderArgs, desc: &mut SceneDesc) {
     let integrator = &mut desc.integrator;
     match args.integrator {
         Some(Integrator::Path) => integrator.name = IntegratorName::Path,
+        Some(Integrator::Reference) => integrator.name = IntegratorName::Reference,
         Some(Integrator::Directlighting) => integrator.name = IntegratorName::DirectLighting,
         None => {}
     }

@@ -105,8 +105,6 @@ pub struct ShapeSample {
     pub p_error: Vec3<f32>,
     /// Unit geometric normal, on the side [`SurfacePoint::ng`] has there.
     pub n: Vec3<f32>,
-    /// Texture coordinates.
-    pub uv: [f32; 2],
     /// Unit direction from the observer to the point; zero where there is no observer.
     pub wi: Vec3<f32>,
     /// Distance to the observer; zero where there is none.

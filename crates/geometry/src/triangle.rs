@@ -5,7 +5,7 @@ use sparrow_math::{Aabb, Frame, Vec3, warp};
 use crate::bvh::gamma;
 use crate::point::{ShapeSample, SurfacePoint};
 use crate::ray::Hit;
-use crate::sample::{SphericalTriangle, seen_from};
+use crate::sample::{Bilinear, SphericalTriangle, Viewpoint, WARPED, seen_from};
 use crate::shape::TriangleMesh;
 
 /// Triangles are drawn by area where they fill less of the sphere than this; values of pbrt-v4.
@@ -215,7 +215,6 @@ impl Triangles {
             p: mix(b, p),
             p_error: mix(b.map(f32::abs), p.map(Vec3::abs)) * gamma(6),
             n: self.normal(p, self.shading_normal(at, b)),
-            uv: self.parametrisation(at).at(b),
             wi: Vec3::splat(0.0),
             distance: 0.0,
             pdf,
@@ -227,24 +226,45 @@ impl Triangles {
         let pdf = 1.0 / (0.5 * double_area(p).length());
         Some(self.sample_at(prim, p, [b0, b1, 1.0 - b0 - b1], pdf as f32))
     }
-    pub(crate) fn sample_from(&self, prim: u32, from: Vec3<f32>, u: [f32; 2]) -> Option<ShapeSample> {
+    pub(crate) fn sample_from(&self, prim: u32, from: &Viewpoint, u: [f32; 2]) -> Option<ShapeSample> {
         let p = self.usable_corners(prim)?;
-        let Some(t) = by_solid_angle(p, from) else {
-            return seen_from(self.sample_area(prim, u)?, from);
+        let Some(t) = by_solid_angle(p, from.p) else {
+            return seen_from(self.sample_area(prim, u)?, from.p);
         };
-        let b = t.sample(u)?;
-        let s = self.sample_at(prim, p, b, 0.0);
-        let pdf = (1.0 / t.solid_angle) as f32;
-        seen_from(s, from).map(|s| ShapeSample { pdf, ..s })
+        let (u, density) = match follow_cosine(&t, from) {
+            Some(warp) => {
+                let u = warp.sample(u);
+                (u, warp.pdf(u))
+            }
+            None => (u.map(f64::from), 1.0),
+        };
+        let s = self.sample_at(prim, p, t.sample(u)?, 0.0);
+        let pdf = (density / t.solid_angle) as f32;
+        seen_from(s, from.p).map(|s| ShapeSample { pdf, ..s })
     }
-    /// Density per steradian of [`sample_from`](Self::sample_from); `per_area` turns densities per area into it.
-    pub(crate) fn pdf_from(&self, prim: u32, from: Vec3<f32>, per_area: impl Fn(f64) -> f32) -> f32 {
+    /// Density per steradian of [`sample_from`](Self::sample_from) for a direction that met the triangle at `hit_p`;
+    /// `per_area` turns densities per area into it.
+    pub(crate) fn pdf_from(
+        &self,
+        prim: u32,
+        from: &Viewpoint,
+        hit_p: Vec3<f32>,
+        per_area: impl Fn(f64) -> f32,
+    ) -> f32 {
         let Some(p) = self.usable_corners(prim) else { return 0.0 };
-        match by_solid_angle(p, from) {
-            Some(t) => (1.0 / t.solid_angle) as f32,
-            None => per_area(1.0 / (0.5 * double_area(p).length())),
-        }
+        let Some(t) = by_solid_angle(p, from.p) else {
+            return per_area(1.0 / (0.5 * double_area(p).length()));
+        };
+        let wi = hit_p.to_f64() - from.p.to_f64();
+        let density = follow_cosine(&t, from).map_or(1.0, |warp| warp.pdf(t.invert(wi)));
+        (density / t.solid_angle) as f32
     }
+}
+
+/// The density of the unit square by which directions to a triangle follow the cosine at the viewpoint.
+fn follow_cosine(t: &SphericalTriangle, from: &Viewpoint) -> Option<Bilinear> {
+    let n = from.n.filter(|_| WARPED.contains(&t.solid_angle))?;
+    Some(Bilinear::of_cosines(n, t.square()))
 }
 
 /// The triangle on the sphere around `from`, if it is to be drawn by solid angle.

@@ -112,7 +112,7 @@ pub struct Frame<R> {
 
 impl<R: Real> Frame<R> {
     /// Any frame around the unit vector `z`. [Duff2017, listing 3]
-    #[inline]
+    #[inline(always)]
     pub fn from_z(z: Vec3<R>) -> Self {
         let sign = R::ONE.copysign(z.z);
         let a = -R::ONE / (sign + z.z);
@@ -123,6 +123,20 @@ impl<R: Real> Frame<R> {
             z,
         }
     }
+    /// The frame around the unit vector `z` whose x follows `tangent`; any x where that is parallel to z or null.
+    #[inline(always)]
+    pub fn from_zx(z: Vec3<R>, tangent: Vec3<R>) -> Self {
+        let t = tangent - z * z.dot(tangent);
+        let len2 = t.length2();
+        let has_x = len2.gt(R::of(1e-12) * tangent.length2()) & len2.gt(R::of(1e-30));
+        let x = t * (R::ONE / len2.sqrt());
+        Self::select(has_x, Frame { x, y: z.cross(x), z }, Self::from_z(z))
+    }
+    /// `a` where the mask is true, else `b`.
+    #[inline(always)]
+    pub fn select(m: R::Mask, a: Self, b: Self) -> Self {
+        Frame { x: Vec3::select(m, a.x, b.x), y: Vec3::select(m, a.y, b.y), z: Vec3::select(m, a.z, b.z) }
+    }
     /// World to local.
     #[inline(always)]
     pub fn to_local(&self, w: Vec3<R>) -> LocalDir<R> {
@@ -132,20 +146,5 @@ impl<R: Real> Frame<R> {
     #[inline(always)]
     pub fn to_world(&self, w: LocalDir<R>) -> Vec3<R> {
         self.x * w.0.x + self.y * w.0.y + self.z * w.0.z
-    }
-}
-
-impl Frame<f32> {
-    /// The frame around the unit vector `z` whose x follows `tangent`; any x where that is parallel to z or null.
-    #[inline]
-    pub fn from_zx(z: Vec3<f32>, tangent: Vec3<f32>) -> Self {
-        let t = tangent - z * z.dot(tangent);
-        let len2 = t.length2();
-        if len2 > 1e-12 * tangent.length2() && len2 > 1e-30 {
-            let x = t * (1.0 / len2.sqrt());
-            Frame { x, y: z.cross(x), z }
-        } else {
-            Frame::from_z(z)
-        }
     }
 }

@@ -34,9 +34,23 @@ impl CameraFrame {
         let column = |j: usize| vec3(rows[0][j], rows[1][j], rows[2][j]).to_f32();
         CameraFrame { axes: [column(0), column(1), column(2)], origin: column(3) }
     }
-    fn turn(&self, v: Vec3<f32>) -> Vec3<f32> {
-        self.axes[0] * v.x + self.axes[1] * v.y + self.axes[2] * v.z
+    #[inline(always)]
+    fn turn<R: Real>(&self, v: Vec3<R>) -> Vec3<R> {
+        let [x, y, z] = self.axes;
+        constant::<R>(x) * v.x + constant::<R>(y) * v.y + constant::<R>(z) * v.z
     }
+}
+
+/// The same number in every lane.
+#[inline(always)]
+fn of<R: Real>(x: f32) -> R {
+    R::of(f64::from(x))
+}
+
+/// The same vector in every lane.
+#[inline(always)]
+fn constant<R: Real>(v: Vec3<f32>) -> Vec3<R> {
+    vec3(of(v.x), of(v.y), of(v.z))
 }
 
 impl Camera {
@@ -107,21 +121,37 @@ impl Camera {
     /// The ray through `film`, in pixels from the top left corner, and the point of the lens that `lens` chooses, at a motion time.
     pub fn ray(&self, film: [f32; 2], lens: [f32; 2], time: f32) -> Ray {
         let frame = self.motion.as_ref().map(|m| CameraFrame::new(&m.at(f64::from(time))));
-        let frame = frame.as_ref().unwrap_or(&self.frame);
-        let x = self.corner[0] + film[0] * self.step[0];
-        let y = self.corner[1] + film[1] * self.step[1];
+        let (o, d) = self.through(frame.as_ref().unwrap_or(&self.frame), film, lens);
+        Ray { time, ..Ray::new(o, d) }
+    }
+
+    /// Origins and directions of [`ray`](Self::ray) for several rays, where the camera stands still.
+    #[inline(always)]
+    pub(crate) fn at_rest<R: Real>(&self, film: [R; 2], lens: [R; 2]) -> (Vec3<R>, Vec3<R>) {
+        self.through(&self.frame, film, lens)
+    }
+
+    /// The camera moves.
+    pub(crate) fn moves(&self) -> bool {
+        self.motion.is_some()
+    }
+
+    #[inline(always)]
+    fn through<R: Real>(&self, frame: &CameraFrame, film: [R; 2], lens: [R; 2]) -> (Vec3<R>, Vec3<R>) {
+        let x = of::<R>(self.corner[0]) + film[0] * of(self.step[0]);
+        let y = of::<R>(self.corner[1]) + film[1] * of(self.step[1]);
         let (mut o, mut d) = if self.perspective {
-            (vec3(0.0, 0.0, 0.0), vec3(x, y, 1.0).normalized())
+            (Vec3::splat(R::ZERO), vec3(x, y, R::ONE).normalized())
         } else {
-            (vec3(x, y, 0.0), vec3(0.0, 0.0, 1.0))
+            (vec3(x, y, R::ZERO), vec3(R::ZERO, R::ZERO, R::ONE))
         };
         if self.lens_radius > 0.0 {
             let [u, v] = warp::concentric_disk(lens);
-            let focus = o + d * (self.focal_distance / d.z);
-            o += vec3(u, v, 0.0) * self.lens_radius;
+            let focus = o + d * (of::<R>(self.focal_distance) / d.z);
+            o += vec3(u, v, R::ZERO) * of(self.lens_radius);
             d = (focus - o).normalized();
         }
-        Ray { time, ..Ray::new(frame.origin + frame.turn(o), frame.turn(d).normalized()) }
+        (constant::<R>(frame.origin) + frame.turn(o), frame.turn(d).normalized())
     }
 
     /// How far the point `p` with normal `n` moves on its tangent plane for one pixel along x and y of the film.

@@ -41,6 +41,14 @@ impl Carrier {
         }
     }
 
+    /// [`wavelengths`](Self::wavelengths) of each of `u`, added to `out`.
+    pub(crate) fn wavelengths_many(self, u: &[f32], out: &mut Vec<Wavelengths>) {
+        match self {
+            Carrier::Wavelengths => Wavelengths::sample_visible_many(u, out),
+            Carrier::Rgb(_) => out.extend(u.iter().map(|&u| self.wavelengths(u))),
+        }
+    }
+
     /// A spectrum of the scene, ready for lookup; `role` says what RGB values mean.
     ///
     /// In RGB a tabulated reflectance, absorption or index is its mean as the film's colour space sees it under its white, so

@@ -7,7 +7,7 @@
 
 use core::f64::consts::PI;
 
-use sparrow_math::{ONE_MINUS_EPSILON, Real};
+use sparrow_math::{Mask, ONE_MINUS_EPSILON, Real};
 
 /// A pixel filter; radii in pixels, along x and y. [`Filter::default`] is pbrt-v4's.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -149,8 +149,9 @@ struct Axis {
     /// Cumulative shares of `|f|`.
     cdf: Vec<f32>,
     /// Where the search for u in `[k, k + 1) / N_GUIDES` begins.
-    guide: Vec<u8>,
-    negative: Vec<bool>,
+    guide: Vec<f32>,
+    /// Sign of `f`, 1 or -1.
+    sign: Vec<f32>,
     integral: f64,
     abs_integral: f64,
 }
@@ -177,12 +178,12 @@ impl Axis {
             *c = 1.0;
         }
         let below = |u: f32| cdf.partition_point(|c| *c <= u).clamp(1, N_CELLS) - 1;
-        let guide = (0..N_GUIDES).map(|k| below(k as f32 / N_GUIDES as f32) as u8).collect();
-        let negative = means.iter().map(|m| *m < 0.0).collect();
+        let guide = (0..N_GUIDES).map(|k| below(k as f32 / N_GUIDES as f32) as f32).collect();
+        let sign = means.iter().map(|m| if *m < 0.0 { -1.0 } else { 1.0 }).collect();
         Axis {
             radius,
             guide,
-            negative,
+            sign,
             integral: means.iter().sum::<f64>() * cell,
             abs_integral: total * cell,
             cdf,
@@ -190,16 +191,22 @@ impl Axis {
     }
 
     /// Offset and sign.
-    #[inline]
-    fn sample(&self, u: f32) -> (f32, bool) {
-        let mut i = usize::from(self.guide[((u * N_GUIDES as f32) as usize).min(N_GUIDES - 1)]);
-        while i + 1 < N_CELLS && self.cdf[i + 1] <= u {
-            i += 1;
+    #[inline(always)]
+    fn sample<R: Real>(&self, u: R) -> (R, R) {
+        let mut i = (u * R::of(N_GUIDES as f64)).look_up(&self.guide);
+        loop {
+            let next = i + R::ONE;
+            let beyond = next.lt(R::of(N_CELLS as f64)) & next.look_up(&self.cdf).le(u);
+            if !beyond.any() {
+                break;
+            }
+            i = R::select(beyond, next, i);
         }
-        let width = (self.cdf[i + 1] - self.cdf[i]).max(f32::MIN_POSITIVE);
-        let t = ((u - self.cdf[i]) / width).min(1.0);
-        let x = (i as f32 + t) * (2.0 / N_CELLS as f32) - 1.0;
-        (x * self.radius, self.negative[i])
+        let below = i.look_up(&self.cdf);
+        let width = ((i + R::ONE).look_up(&self.cdf) - below).max(R::of(f64::from(f32::MIN_POSITIVE)));
+        let t = ((u - below) / width).min(R::ONE);
+        let x = (i + t) * R::of(2.0 / N_CELLS as f64) - R::ONE;
+        (x * R::of(f64::from(self.radius)), i.look_up(&self.sign))
     }
 }
 
@@ -212,11 +219,11 @@ enum Plan {
 
 /// A sample of the pixel.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub struct FilterSample {
+pub struct FilterSample<R = f32> {
     /// From the pixel's centre, in pixels.
-    pub offset: [f32; 2],
+    pub offset: [R; 2],
     /// `f / pdf`, divided by the integral of `|f|`: +1 or -1.
-    pub weight: f32,
+    pub weight: R,
 }
 
 /// Draws offsets distributed like a filter.
@@ -266,27 +273,31 @@ impl FilterSampler {
     }
 
     /// A sample of the pixel from a point of the unit square, each axis mapped monotonically.
-    #[inline]
-    pub fn sample(&self, u: [f32; 2]) -> FilterSample {
+    #[inline(always)]
+    pub fn sample<R: Real>(&self, u: [R; 2]) -> FilterSample<R> {
         let [rx, ry] = self.filter.radius();
+        let (rx, ry) = (R::of(f64::from(rx)), R::of(f64::from(ry)));
         match &self.plan {
             Plan::Box => {
-                FilterSample { offset: [(2.0 * u[0] - 1.0) * rx, (2.0 * u[1] - 1.0) * ry], weight: 1.0 }
+                let (x, y) = (R::of(2.0) * u[0] - R::ONE, R::of(2.0) * u[1] - R::ONE);
+                FilterSample { offset: [x * rx, y * ry], weight: R::ONE }
             }
-            Plan::Triangle => FilterSample { offset: [tent(u[0]) * rx, tent(u[1]) * ry], weight: 1.0 },
+            Plan::Triangle => FilterSample { offset: [tent(u[0]) * rx, tent(u[1]) * ry], weight: R::ONE },
             Plan::Table(axes) => {
-                let (x, x_negative) = axes[0].sample(u[0]);
-                let (y, y_negative) = axes[1].sample(u[1]);
-                FilterSample { offset: [x, y], weight: if x_negative == y_negative { 1.0 } else { -1.0 } }
+                let (x, x_sign) = axes[0].sample(u[0]);
+                let (y, y_sign) = axes[1].sample(u[1]);
+                FilterSample { offset: [x, y], weight: x_sign * y_sign }
             }
         }
     }
 }
 
 /// Inverts the distribution with density `1 - |x|` over [-1, 1].
-#[inline]
-fn tent(u: f32) -> f32 {
-    if u < 0.5 { (2.0 * u).sqrt() - 1.0 } else { 1.0 - (2.0 * (1.0 - u)).sqrt() }
+#[inline(always)]
+fn tent<R: Real>(u: R) -> R {
+    let rising = (R::of(2.0) * u).safe_sqrt() - R::ONE;
+    let falling = R::ONE - (R::of(2.0) * (R::ONE - u)).safe_sqrt();
+    R::select(u.lt(R::of(0.5)), rising, falling)
 }
 
 #[cfg(test)]

@@ -11,6 +11,10 @@ use crate::scatter::LocalModel;
 use crate::spectrum::SceneSpectrum;
 use crate::texture::{TextureContext, Textures};
 
+mod columns;
+
+pub(crate) use columns::{MaterialColumns, Points};
+
 /// Fraunhofer's d line, at which indices of refraction are given, in nm.
 const HELIUM_D: f32 = 587.6;
 
@@ -30,10 +34,37 @@ enum SpectrumSource {
     KOfTexture(SpectrumTextureId),
 }
 
+impl RealSource {
+    #[inline]
+    fn at(&self, textures: &Textures, ctx: &TextureContext, w: &Wavelengths) -> f32 {
+        match self {
+            RealSource::Constant(v) => *v,
+            RealSource::Texture(id) => textures.float(*id, ctx),
+            RealSource::SqrtOfTexture(id) => textures.float(*id, ctx).max(0.0).sqrt(),
+            RealSource::AtHero(d) => d.at(w)[0],
+        }
+    }
+}
+
+impl SpectrumSource {
+    /// It varies neither over the surface nor with a path's wavelengths.
+    fn is_constant(&self) -> bool {
+        matches!(self, SpectrumSource::Value(SceneSpectrum::Constant(_) | SceneSpectrum::Channels(_)))
+    }
+    #[inline]
+    fn at(&self, textures: &Textures, ctx: &TextureContext, w: &Wavelengths) -> Spectrum<f32> {
+        match self {
+            SpectrumSource::Value(s) => s.at(w),
+            SpectrumSource::Texture(id) => textures.value(*id, ctx, w),
+            SpectrumSource::KOfTexture(id) => textures.value(*id, ctx, w).map(k_of_reflectance),
+        }
+    }
+}
+
 /// A material of a compiled scene.
 #[derive(Clone, Debug)]
 pub(crate) struct Material {
-    kind: ModelKind,
+    pub(crate) kind: ModelKind,
     reals: Vec<RealSource>,
     spectra: Vec<SpectrumSource>,
     choices: [u8; MAX_CHOICES],
@@ -87,19 +118,10 @@ impl Material {
         let mut block =
             ParamBlock { choices: self.choices, lambda: Spectrum(w.lambda), h, ..ParamBlock::default() };
         for (slot, source) in block.reals.iter_mut().zip(&self.reals) {
-            *slot = match source {
-                RealSource::Constant(v) => *v,
-                RealSource::Texture(id) => textures.float(*id, ctx),
-                RealSource::SqrtOfTexture(id) => textures.float(*id, ctx).max(0.0).sqrt(),
-                RealSource::AtHero(d) => d.at(w)[0],
-            };
+            *slot = source.at(textures, ctx, w);
         }
         for (slot, source) in block.spectra.iter_mut().zip(&self.spectra) {
-            *slot = match source {
-                SpectrumSource::Value(s) => s.at(w),
-                SpectrumSource::Texture(id) => textures.value(*id, ctx, w),
-                SpectrumSource::KOfTexture(id) => textures.value(*id, ctx, w).map(k_of_reflectance),
-            };
+            *slot = source.at(textures, ctx, w);
         }
         match self.kind {
             ModelKind::Surface(kind) => LocalModel::Surface(kind.bind(&block)),

@@ -1,6 +1,6 @@
 //! How a picture is taken of a scene: everything a render needs beside the scene itself.
 
-use sparrow_scene::{FilterDesc, RandomizeName, SamplerDesc, SamplerName, SceneDesc};
+use sparrow_scene::{FilterDesc, IntegratorName, RandomizeName, SamplerDesc, SamplerName, SceneDesc};
 use sparrow_spectra::{Sensor, Spectrum, Wavelengths};
 
 use crate::colour::Carrier;
@@ -18,6 +18,8 @@ pub struct RenderPlan {
     pub sensor: FilmSensor,
     /// Light transport.
     pub integrator: PathIntegrator,
+    /// Paths are followed one by one, by the loop that is the reference; to the same bits.
+    pub one_by_one: bool,
     /// The part of the picture that is rendered: `x0 x1 y0 y1`, ends excluded.
     pub bounds: [u32; 4],
     /// Samples per pixel.
@@ -47,6 +49,11 @@ impl FilmSensor {
     #[inline]
     pub fn wavelengths(&self, u: f32) -> Wavelengths {
         self.carrier.wavelengths(u)
+    }
+
+    /// [`wavelengths`](Self::wavelengths) of each of `u`, added to `out`.
+    pub(crate) fn wavelengths_many(&self, u: &[f32], out: &mut Vec<Wavelengths>) {
+        self.carrier.wavelengths_many(u, out);
     }
 
     /// Linear RGB of the output colour space, for one sample.
@@ -95,10 +102,17 @@ impl RenderPlan {
             filter: FilterSampler::new(&filter(desc.filter)),
             sensor: FilmSensor { carrier, to_output, response, max_component: film.max_component_value },
             integrator: PathIntegrator::new(&desc.integrator),
+            one_by_one: desc.integrator.name == IntegratorName::Reference,
             bounds: film.pixel_bounds,
             samples_per_pixel: sampler.samples_per_pixel(),
             sampler,
         })
+    }
+
+    /// A pixel of the part that is rendered, counted in the full picture.
+    #[inline]
+    pub(crate) fn in_full_picture(&self, pixel: [u32; 2]) -> [u32; 2] {
+        [pixel[0] + self.bounds[0], pixel[1] + self.bounds[2]]
     }
 
     /// Width and height of the part that is rendered.

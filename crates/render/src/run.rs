@@ -7,9 +7,9 @@ use std::time::Instant;
 
 use rayon::prelude::*;
 
-use crate::film::{Film, FilmTile};
-use crate::integrator::RayCounts;
-use crate::observe::{Observer, Sample, TileObserver};
+use crate::film::Film;
+use crate::integrator::{Block, CameraNumbers, CameraSample, Exposed, RayCounts};
+use crate::observe::{Observer, TileObserver};
 use crate::plan::RenderPlan;
 use crate::render::{Progress, RenderError, RenderOptions, RenderStats};
 use crate::sampler::Sampler;
@@ -49,6 +49,36 @@ pub(crate) struct Job<'a, O = ()> {
     pub(crate) exposure: &'a Exposure<'a, O>,
     pub(crate) origin: [u32; 2],
     pub(crate) samples: Range<u32>,
+}
+
+/// The samples of all pixels of a tile, pixel by pixel.
+struct Samples {
+    first: [u32; 2],
+    width: u32,
+    height: u32,
+    samples: Range<u32>,
+    /// Sample, column and row of what comes next, from the first of each.
+    next: [u32; 3],
+}
+
+impl Iterator for Samples {
+    type Item = ([u32; 2], u32);
+    #[inline]
+    fn next(&mut self) -> Option<([u32; 2], u32)> {
+        let [sample, x, y] = &mut self.next;
+        if *y == self.height || self.samples.is_empty() {
+            return None;
+        }
+        let item = ([self.first[0] + *x, self.first[1] + *y], self.samples.start + *sample);
+        *sample += 1;
+        if self.samples.start + *sample == self.samples.end {
+            (*sample, *x) = (0, *x + 1);
+        }
+        if *x == self.width {
+            (*x, *y) = (0, *y + 1);
+        }
+        Some(item)
+    }
 }
 
 /// State that all threads share.
@@ -119,15 +149,19 @@ impl<'a> Run<'a> {
     }
 
     /// Works off all jobs; false where the render was stopped within them.
-    pub(crate) fn pass<O: Observer>(&self, jobs: &[Job<'_, O>]) -> Result<bool, RenderError> {
+    pub(crate) fn pass<'j, O: Observer>(&self, jobs: &[Job<'j, O>]) -> Result<bool, RenderError> {
         let whole = AtomicBool::new(true);
+        let blocks = Mutex::new(Vec::new());
         self.pool.install(|| {
             jobs.par_iter().try_for_each(|job| {
                 if self.ended() {
                     whole.store(false, Ordering::Relaxed);
                     return Ok(());
                 }
-                self.tile(job)
+                let mut block = lock(&blocks).pop().unwrap_or_else(|| Box::new(Block::default()));
+                let done = self.tile(job, &mut block);
+                lock(&blocks).push(block);
+                done
             })
         })?;
         Ok(whole.into_inner())
@@ -143,21 +177,48 @@ impl<'a> Run<'a> {
         }
     }
 
-    fn tile<O: Observer>(&self, job: &Job<'_, O>) -> Result<(), RenderError> {
-        let Job { exposure, origin, samples } = job;
-        let mut tile = exposure.film().tile(*origin, [TILE, TILE]);
-        let mut observer = exposure.observer.tile(*origin, [TILE, TILE]);
+    /// Paths one after the other, by the readable loop.
+    fn one_by_one<T: TileObserver>(
+        &self,
+        sampler: &Sampler,
+        samples: impl Iterator<Item = ([u32; 2], u32)>,
+        tile: &mut Exposed<'_, T>,
+    ) -> RayCounts {
         let mut rays = RayCounts::default();
-        let [w, h] = tile.size();
-        for y in origin[1]..origin[1] + h {
-            for x in origin[0]..origin[0] + w {
-                for sample in samples.clone() {
-                    self.sample(exposure.sampler, [x, y], sample, &mut tile, &mut observer, &mut rays);
-                }
-            }
+        for (pixel, sample) in samples {
+            let mut sampler = sampler.start(self.plan.in_full_picture(pixel), sample);
+            let numbers = CameraNumbers::new(&sampler);
+            let CameraSample { place, mut lambda, ray } =
+                CameraSample::new(self.scene, self.plan, pixel, &numbers);
+            let mut record = T::Record::default();
+            let integrator = &self.plan.integrator;
+            let l = integrator.radiance(self.scene, ray, &mut lambda, &mut sampler, &mut rays, &mut record);
+            rays.camera += 1;
+            rays.scattered -= 1;
+            tile.take(place, l, &lambda, &record);
         }
-        exposure.film().absorb(&tile)?;
-        exposure.observer.absorb(&observer)?;
+        rays
+    }
+
+    fn tile<'j, O: Observer>(
+        &self,
+        job: &Job<'j, O>,
+        block: &mut Block<'j, <O::Tile as TileObserver>::Record>,
+    ) -> Result<(), RenderError> {
+        let Job { exposure, origin, samples } = job;
+        let film = exposure.film().tile(*origin, [TILE, TILE]);
+        let observer = exposure.observer.tile(*origin, [TILE, TILE]);
+        let [w, h] = film.size();
+        let mut tile = Exposed { plan: self.plan, film, observer };
+        let mut each =
+            Samples { first: *origin, width: w, height: h, samples: samples.clone(), next: [0; 3] };
+        let rays = if self.plan.one_by_one {
+            self.one_by_one(exposure.sampler, each, &mut tile)
+        } else {
+            block.render(self.scene, exposure.sampler, &mut each, &mut tile)
+        };
+        exposure.film().absorb(&tile.film)?;
+        exposure.observer.absorb(&tile.observer)?;
         *lock(&self.rays) += rays;
         let n = u64::from(w) * u64::from(h) * u64::from(samples.end - samples.start);
         let n_samples = self.samples.fetch_add(n, Ordering::Relaxed) + n;
@@ -169,36 +230,6 @@ impl<'a> Run<'a> {
             elapsed: self.start.elapsed(),
         });
         Ok(())
-    }
-
-    /// One camera sample: wavelengths, time, place on film and lens, radiance, film.
-    #[inline]
-    fn sample<T: TileObserver>(
-        &self,
-        sampler: &Sampler,
-        pixel: [u32; 2],
-        sample: u32,
-        tile: &mut FilmTile,
-        observer: &mut T,
-        rays: &mut RayCounts,
-    ) {
-        let plan = self.plan;
-        let [x, y] = [pixel[0] + plan.bounds[0], pixel[1] + plan.bounds[2]];
-        let mut sampler = sampler.start([x, y], sample);
-        let mut lambda = plan.sensor.wavelengths(sampler.get_1d());
-        let time = if self.scene.moves { self.scene.camera.time(sampler.get_1d()) } else { 0.0 };
-        let f = plan.filter.sample(sampler.get_pixel_2d());
-        sampler.set_dimension(2);
-        let lens = sampler.get_2d();
-        let film = [x as f32 + 0.5 + f.offset[0], y as f32 + 0.5 + f.offset[1]];
-        let ray = self.scene.camera.ray(film, lens, time);
-        let mut record = T::Record::default();
-        let l = plan.integrator.radiance(self.scene, ray, &mut lambda, &mut sampler, rays, &mut record);
-        rays.camera += 1;
-        rays.scattered -= 1;
-        let sample = Sample { pixel, rgb: plan.sensor.rgb(l, &lambda), weight: f.weight };
-        let rgb = observer.take(sample, &record, |part| plan.sensor.rgb(part, &lambda));
-        tile.add(pixel[0], pixel[1], rgb, f.weight);
     }
 }
 

@@ -1,7 +1,7 @@
 //! A reflection model at a point, in world space, one ray at a time.
 
 use sparrow_geometry::SurfacePoint;
-use sparrow_math::{Frame, LocalDir, Vec3};
+use sparrow_math::{Frame, LocalDir, Real, Vec3};
 use sparrow_models::{Bcsdf, Bsdf, BsdfSample, Fibre, Surface, Uniforms};
 use sparrow_spectra::Spectrum;
 
@@ -77,16 +77,13 @@ impl LocalModel {
 }
 
 /// The frame whose x is the tangent and whose z comes nearest to the normal.
-#[inline]
-fn frame_of_fibre(tangent: Vec3<f32>, normal: Vec3<f32>) -> Frame<f32> {
+#[inline(always)]
+pub(crate) fn frame_of_fibre<R: Real>(tangent: Vec3<R>, normal: Vec3<R>) -> Frame<R> {
     let length2 = tangent.length2();
-    if !(length2 > 1e-30) {
-        return Frame::from_z(normal);
-    }
-    let x = tangent * (1.0 / length2.sqrt());
+    let x = tangent * (R::ONE / length2.sqrt());
     // Built around x, then turned: x becomes the first axis, the normal the third.
     let f = Frame::from_zx(x, normal);
-    Frame { x, y: -f.y, z: f.x }
+    Frame::select(length2.gt(R::of(1e-30)), Frame { x, y: -f.y, z: f.x }, Frame::from_z(normal))
 }
 
 /// A reflection model in the shading frame of a point: the one door from world to local directions.
@@ -124,7 +121,8 @@ impl Scatter {
         let s = self.model.sample(self.frame.to_local(wo), Uniforms { lobe, dir });
         let finite = s.weight.is_finite() && s.density.is_finite();
         debug_assert!(finite, "{:?} returned {s:?}", self.model);
-        if !s.valid || !finite {
+        // Batches of models say by the density where a path ends.
+        if !s.valid || !finite || !(s.density > 0.0) {
             return None;
         }
         let density = if s.delta { Density::Delta(s.density) } else { Density::SolidAngle(s.density) };

@@ -114,8 +114,8 @@ impl Scene {
         };
         let Some(point) = hit else {
             return self.lights.infinite().iter().fold(Spectrum::ZERO, |sum, &light| {
-                let (l, pdf) = self.lights.escaped(light, ray.d, w);
-                sum + weighted(l, light, &|_| pdf)
+                let l = self.lights.escaped(light, ray.d, w);
+                sum + weighted(l, light, &|at| self.lights.pdf_of_escape(light, at, ray.d))
             });
         };
         let Some(light) = self.lights.of_primitive(point.shape, point.prim) else { return Spectrum::ZERO };
@@ -123,7 +123,7 @@ impl Scene {
         if l.is_black() {
             return l;
         }
-        weighted(l, light, &|at| self.lights.pdf_of_point(&self.geometry, at, ray.d, point))
+        weighted(l, light, &|at| self.lights.pdf_of_point(&self.geometry, at, point))
     }
 
     /// The reflection model at a point, turned to the world; none where rays pass unchanged.
@@ -135,7 +135,7 @@ impl Scene {
         if material.dispersive {
             w.terminate_secondary();
         }
-        let ctx = self.texture_context(point, material.textured && self.needs_footprint);
+        let ctx = self.texture_context_of(material, point);
         let h = fibre_offset(point);
         Some(Scatter::new(point, material.bind(&self.textures, &ctx, h, w)))
     }
@@ -157,12 +157,51 @@ impl Scene {
     /// The light of a sample reaches the point.
     #[inline]
     pub fn unoccluded(&self, point: &SurfacePoint, s: &LightSample) -> bool {
-        let ray = match &s.target {
-            Target::Surface(on_light) => point.spawn_to_sample(on_light),
-            Target::Point(p) => point.spawn_to(*p),
-            Target::Infinity => point.spawn(s.wi),
-        };
-        !self.occluded(&ray)
+        !self.occluded(&shadow_ray(point, s))
+    }
+
+    /// [`intersect`](Self::intersect) for each of `rays`, into as many places of `points`.
+    pub(crate) fn intersect_many(
+        &self,
+        rays: &[Ray],
+        hits: &mut Vec<Option<Hit>>,
+        points: &mut Vec<Option<SurfacePoint>>,
+    ) {
+        points.clear();
+        if self.asks_hits {
+            points.extend(rays.iter().map(|ray| self.intersect(ray)));
+            return;
+        }
+        hits.clear();
+        hits.resize(rays.len(), None);
+        self.geometry.intersect_many(rays, hits);
+        points.extend(rays.iter().zip(hits).map(|(ray, hit)| Some(self.geometry.surface(ray, &(*hit)?))));
+    }
+
+    /// [`occluded`](Self::occluded) for each of `rays`, into as many places of `out`.
+    pub(crate) fn occluded_many(&self, rays: &[Ray], out: &mut Vec<bool>) {
+        out.clear();
+        if self.asks_hits {
+            out.extend(rays.iter().map(|ray| self.occluded(ray)));
+            return;
+        }
+        out.resize(rays.len(), false);
+        self.geometry.occluded_many(rays, out);
+    }
+
+    /// The material of a point; none where rays pass unchanged.
+    #[inline]
+    pub(crate) fn material_of(&self, point: &SurfacePoint) -> Option<u32> {
+        self.material_of_shape[point.shape as usize]
+    }
+    /// The textures.
+    pub(crate) fn textures(&self) -> &Textures {
+        &self.textures
+    }
+    /// A compiled material.
+    #[inline]
+    pub(crate) fn material(&self, index: u32) -> &Material {
+        &self.materials[index as usize]
     }
 
     /// Cut-outs: the hit counts with the probability that its alpha texture gives.
@@ -172,6 +211,12 @@ impl Scene {
         let a = self.textures.float(alpha, &self.texture_context(&point, false));
         // Decided by a hash of ray and surface, so that the same ray always gets the same answer.
         a >= 1.0 || (a > 0.0 && hash_to_unit(ray, hit) < a)
+    }
+
+    /// What the material's textures need of the point.
+    #[inline]
+    pub(crate) fn texture_context_of(&self, material: &Material, point: &SurfacePoint) -> TextureContext {
+        self.texture_context(point, material.textured && self.needs_footprint)
     }
 
     fn texture_context(&self, point: &SurfacePoint, footprint: bool) -> TextureContext {
@@ -185,8 +230,18 @@ impl Scene {
     }
 }
 
+/// The ray from a point to where a light was sampled.
+#[inline]
+pub(crate) fn shadow_ray(point: &SurfacePoint, s: &LightSample) -> Ray {
+    match &s.target {
+        Target::Surface(on_light) => point.spawn_to_sample(on_light),
+        Target::Point(p) => point.spawn_to(*p),
+        Target::Infinity => point.spawn(s.wi),
+    }
+}
+
 /// The ray's offset from the axis of a fibre, in radii: `2 v - 1`, as pbrt-v4 has it on any shape.
-fn fibre_offset(point: &SurfacePoint) -> f32 {
+pub(crate) fn fibre_offset(point: &SurfacePoint) -> f32 {
     (2.0 * point.uv[1] - 1.0).clamp(-1.0, 1.0)
 }
 

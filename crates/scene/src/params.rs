@@ -129,6 +129,10 @@ impl Params {
         let first = self.find(name, &[Type::Texture])?.values.texts().first();
         first.map(|(s, at)| (s.as_str(), *at))
     }
+    /// All points.
+    pub(crate) fn triples(&self, name: &str) -> &[[f32; 3]] {
+        self.find(name, &[Type::Point3]).map_or(&[], |p| p.values.triples())
+    }
     /// One point, vector or normal.
     pub(crate) fn triple(&self, name: &str) -> Option<Vec3<f64>> {
         let first = self.find(name, &[Type::Point3, Type::Vector3, Type::Normal])?.values.triples().first();

@@ -357,6 +357,7 @@ fn integrators_resolve_to_ours() {
         (i.name, i.mis.to_string().as_str(), i.light_sampler),
         (IntegratorName::DirectLighting, "power:1.5", LightSamplerName::Power)
     );
+    assert_eq!(integrator("\"reference\"").name, IntegratorName::Reference);
     let i = integrator("\"simplepath\" \"bool samplelights\" false");
     assert_eq!(i.mis.to_string(), "bsdf-only");
 }
@@ -384,6 +385,21 @@ fn lights_carry_the_numbers_of_the_file() {
     let LightKind::Spot { from, cone_angle, cone_delta, .. } = &s.lights[3].kind else { panic!() };
     assert!(near(*from, [1.0; 3]) && (*cone_angle, *cone_delta) == (30.0, 5.0));
     assert!(near(s.lights[0].to_world.point(Vec3::default()), [1.0, 0.0, 0.0]));
+}
+
+#[test]
+fn a_portal_is_a_rectangle_in_world_space() {
+    let s = scene(
+        "WorldBegin Translate 5 0 0 LightSource \"infinite\" \"point3 portal\" [ 0 0 0  0 2 0  1 2 0  1 0 0 ] LightSource \"infinite\"",
+    );
+    let Some([p0, p1, p2, p3]) = s.lights[0].portal else { panic!() };
+    assert!(
+        near(p0, [0.0; 3])
+            && near(p1, [0.0, 2.0, 0.0])
+            && near(p2, [1.0, 2.0, 0.0])
+            && near(p3, [1.0, 0.0, 0.0])
+    );
+    assert!(s.lights[1].portal.is_none());
 }
 
 #[test]

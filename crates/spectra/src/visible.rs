@@ -2,7 +2,7 @@
 
 use std::sync::OnceLock;
 
-use sparrow_math::Real;
+use sparrow_math::{Mask, Real};
 
 use crate::{ColorSpace, LAMBDA_MIN, N_DENSE, cie};
 
@@ -28,7 +28,7 @@ pub(crate) struct Visible {
     /// Share below each bin's lower end; the last is 1.
     cdf: [f32; N_DENSE],
     /// For each of `N_GUIDE` equal steps of the uniform number, a bin at or before the one sought.
-    guide: [u16; N_GUIDE],
+    guide: [f32; N_GUIDE],
 }
 
 impl Visible {
@@ -41,7 +41,7 @@ impl Visible {
     fn new() -> Visible {
         let weight = smoothed(&rgb_weight());
         let total: f64 = weight.iter().sum();
-        let mut v = Visible { pdf: [0.0; N_BINS], cdf: [0.0; N_DENSE], guide: [0; N_GUIDE] };
+        let mut v = Visible { pdf: [0.0; N_BINS], cdf: [0.0; N_DENSE], guide: [0.0; N_GUIDE] };
         let mut sum = 0.0;
         for (i, w) in weight.iter().enumerate() {
             sum += w / total;
@@ -57,21 +57,26 @@ impl Visible {
             while v.cdf[bin + 1] <= k as f32 / N_GUIDE as f32 {
                 bin += 1;
             }
-            *g = bin as u16;
+            *g = bin as f32;
         }
         v
     }
 
     /// The wavelength in nm that `u` in [0, 1) stands for, and its density in 1/nm.
-    #[inline]
-    pub(crate) fn sample(&self, u: f32) -> (f32, f32) {
-        let mut bin = usize::from(self.guide[((u * N_GUIDE as f32) as usize).min(N_GUIDE - 1)]);
-        while bin + 1 < N_BINS && self.cdf[bin + 1] <= u {
-            bin += 1;
+    #[inline(always)]
+    pub(crate) fn sample<R: Real>(&self, u: R) -> (R, R) {
+        let mut bin = (u * R::of(N_GUIDE as f64)).look_up(&self.guide);
+        loop {
+            let next = bin + R::ONE;
+            let beyond = next.lt(R::of(N_BINS as f64)) & next.look_up(&self.cdf).le(u);
+            if !beyond.any() {
+                break;
+            }
+            bin = R::select(beyond, next, bin);
         }
-        let pdf = self.pdf[bin];
-        let inside = ((u - self.cdf[bin]) / pdf).clamp(0.0, 1.0);
-        (LAMBDA_MIN + bin as f32 + inside, pdf)
+        let pdf = bin.look_up(&self.pdf);
+        let inside = ((u - bin.look_up(&self.cdf)) / pdf).clamp(R::ZERO, R::ONE);
+        (R::of(f64::from(LAMBDA_MIN)) + bin + inside, pdf)
     }
 
     /// Density of a wavelength, in 1/nm; zero outside 360..830 nm.

@@ -1,5 +1,7 @@
 //! The wavelengths of one path: [`Wavelengths`].
 
+use sparrow_math::{InLanes, Real, in_lanes};
+
 use crate::visible::Visible;
 use crate::{LAMBDA_MAX, LAMBDA_MIN, N_LAMBDA, Spectrum};
 
@@ -22,13 +24,20 @@ impl Wavelengths {
     /// Departs from pbrt-v4, whose density follows luminance alone and neglects blue; see [`visible_pdf`].
     #[inline]
     pub fn sample_visible(u: f32) -> Self {
-        let density = Visible::get();
-        let (mut lambda, mut pdf) = ([0.0; N_LAMBDA], [0.0; N_LAMBDA]);
-        for i in 0..N_LAMBDA {
-            let shifted = u + i as f32 / N_LAMBDA as f32;
-            (lambda[i], pdf[i]) = density.sample(if shifted >= 1.0 { shifted - 1.0 } else { shifted });
-        }
+        let (lambda, pdf) = visible(Visible::get(), u);
         Self::with_pdf(lambda, pdf)
+    }
+
+    /// [`sample_visible`](Self::sample_visible) of each of `u`, to the bit, in lanes; adds them to `out`.
+    pub fn sample_visible_many(u: &[f32], out: &mut Vec<Self>) {
+        for u in u.chunks(CHUNK) {
+            let mut columns = Columns::default();
+            columns.u[..u.len()].copy_from_slice(u);
+            in_lanes(Draw(Visible::get(), &mut columns));
+            out.extend((0..u.len()).map(|i| {
+                Self::with_pdf(columns.lambda.each_ref().map(|c| c[i]), columns.pdf.each_ref().map(|c| c[i]))
+            }));
+        }
     }
 
     /// Four equidistant wavelengths, the first uniform over the whole range.
@@ -75,6 +84,51 @@ impl Wavelengths {
     }
 }
 
+/// Wavelengths from `u + i/4`, wrapped, and their densities.
+#[inline(always)]
+fn visible<R: Real>(density: &Visible, u: R) -> ([R; N_LAMBDA], [R; N_LAMBDA]) {
+    let (mut lambda, mut pdf) = ([R::ZERO; N_LAMBDA], [R::ZERO; N_LAMBDA]);
+    for i in 0..N_LAMBDA {
+        let shifted = u + R::of(i as f64 / N_LAMBDA as f64);
+        let wrapped = R::select(shifted.ge(R::ONE), shifted - R::ONE, shifted);
+        (lambda[i], pdf[i]) = density.sample(wrapped);
+    }
+    (lambda, pdf)
+}
+
+/// Paths whose wavelengths are drawn together.
+const CHUNK: usize = 64;
+
+/// Uniform numbers, and what is drawn from them.
+struct Columns {
+    u: [f32; CHUNK],
+    lambda: [[f32; CHUNK]; N_LAMBDA],
+    pdf: [[f32; CHUNK]; N_LAMBDA],
+}
+
+impl Default for Columns {
+    fn default() -> Columns {
+        Columns { u: [0.0; CHUNK], lambda: [[0.0; CHUNK]; N_LAMBDA], pdf: [[0.0; CHUNK]; N_LAMBDA] }
+    }
+}
+
+struct Draw<'a>(&'a Visible, &'a mut Columns);
+
+impl InLanes for Draw<'_> {
+    type Output = ();
+    #[inline(always)]
+    fn run<R: Real>(self) {
+        let Draw(density, Columns { u, lambda, pdf }) = self;
+        for i in (0..CHUNK).step_by(R::WIDTH) {
+            let (l, p) = visible(density, R::load(u, i));
+            for k in 0..N_LAMBDA {
+                l[k].store(&mut lambda[k], i);
+                p[k].store(&mut pdf[k], i);
+            }
+        }
+    }
+}
+
 /// Density of [`Wavelengths::sample_visible`] at `lambda` nm, in 1/nm; zero outside 360..830 nm.
 ///
 /// In proportion to the length of the vector that the wavelength adds to a linear RGB picture under D65, smoothed over
@@ -114,6 +168,15 @@ mod tests {
             // Equidistant numbers: each bin's end errs by one draw of each of the four.
             assert!((c as f32 - expected * (4 * n) as f32).abs() < 50.0, "bin {i}: {c} {expected}");
         }
+    }
+
+    #[test]
+    fn many_are_drawn_as_one_by_one() {
+        let u: Vec<f32> =
+            (0..1000).map(|i| i as f32 / 1000.0).chain([sparrow_math::ONE_MINUS_EPSILON]).collect();
+        let mut many = Vec::new();
+        Wavelengths::sample_visible_many(&u, &mut many);
+        assert_eq!(many, u.iter().map(|&u| Wavelengths::sample_visible(u)).collect::<Vec<_>>());
     }
 
     #[test]

@@ -48,7 +48,7 @@ pub(super) fn ply_of(grids: &[Grid<'_>]) -> String {
 }
 
 /// Four decimals, without the sign of a zero.
-fn short(x: f64) -> String {
+pub(super) fn short(x: f64) -> String {
     let text = format!("{x:.4}");
     if text == "-0.0000" {
         "0".to_owned()

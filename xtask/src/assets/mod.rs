@@ -5,6 +5,7 @@ mod grid;
 mod helix;
 mod herbert;
 mod horse;
+mod market;
 mod spool;
 mod textures;
 mod vase;
@@ -14,16 +15,18 @@ use std::path::Path;
 
 use sparrow_image::{Encoding, Image, Pixels, write_png};
 
-/// Files of text, with the folder of each.
-fn texts() -> [(&'static str, String); 6] {
-    [
+/// Files of text, by name.
+fn texts() -> Vec<(String, String)> {
+    let single = [
         ("meshes/cloth.ply", cloth::ply()),
         ("meshes/helix.ply", helix::ply()),
         ("meshes/herbert.ply", herbert::ply()),
         ("meshes/horse.ply", horse::ply()),
         ("meshes/vase.ply", vase::ply()),
         ("lecture/spool.inc", spool::curve()),
-    ]
+    ];
+    let market = market::all().into_iter().map(|(name, text)| (format!("meshes/{name}.ply"), text));
+    single.map(|(name, text)| (name.to_owned(), text)).into_iter().chain(market).collect()
 }
 
 /// Writes `textures/*.png`, `meshes/*.ply` and `lecture/spool.inc` into the folder of the scenes.
@@ -72,7 +75,7 @@ mod tests {
         let fresh = std::env::temp_dir().join(format!("xtask-assets-{}", std::process::id()));
         write(&fresh).expect("assets");
         let mut names: Vec<String> = textures::ALL.iter().map(|(n, ..)| format!("textures/{n}")).collect();
-        names.extend(texts().map(|(name, _)| name.to_owned()));
+        names.extend(texts().into_iter().map(|(name, _)| name));
         for name in names {
             let [old, new] = [scenes.join(&name), fresh.join(&name)].map(|p| fs::read(p).expect("a file"));
             assert!(old == new, "{name} differs; run `cargo run -p xtask -- assets`");

@@ -12,7 +12,7 @@ use crate::bvh::{Bvh, Few, MAX_PRIMS};
 use crate::instance::{Instance, Instances, MovingInstance};
 use crate::point::{ShapeSample, SurfacePoint};
 use crate::ray::{Hit, Ray};
-use crate::sample::per_steradian;
+use crate::sample::{Viewpoint, per_steradian};
 use crate::shape::ShapeInstance;
 
 /// What building cost and gave.
@@ -183,36 +183,42 @@ impl Geometry {
         }
     }
     /// Draws a point of a primitive, with a density over the directions in which it is seen from `from`: uniform for
-    /// triangles, rectangles and whole spheres of sensible size, else uniform over the surface. `None` where such a
-    /// density does not exist: seen edge-on, dropped, or a curve's.
+    /// triangles, rectangles and whole spheres of sensible size, else uniform over the surface. For triangles and
+    /// rectangles that are seen large it follows the cosine at `from`. `None` where such a density does not exist: seen
+    /// edge-on, dropped, or a curve's.
     #[inline]
-    pub fn sample_from(&self, shape: u32, prim: u32, from: Vec3<f32>, u: [f32; 2]) -> Option<ShapeSample> {
+    pub fn sample_from(
+        &self,
+        shape: u32,
+        prim: u32,
+        from: impl Into<Viewpoint>,
+        u: [f32; 2],
+    ) -> Option<ShapeSample> {
+        let from = &from.into();
         match self.body(shape)? {
             Body::Triangles(m) => m.sample_from(prim, from, u),
             Body::Patches(m) => m.sample_from(prim, from, u),
             Body::Curves(_) => None,
-            Body::Quadric(q) => q.as_ref()?.sample_from(from, u),
+            Body::Quadric(q) => q.as_ref()?.sample_from(from.p, u),
         }
     }
-    /// Density per steradian with which [`sample_from`](Self::sample_from) draws the direction `wi`, which met the
-    /// primitive at `hit_p` with geometric normal `hit_n`.
+    /// Density per steradian with which [`sample_from`](Self::sample_from) draws the direction that met the primitive at
+    /// `hit_p` with geometric normal `hit_n`.
     #[inline]
     pub fn pdf_from(
         &self,
         shape: u32,
         prim: u32,
-        from: Vec3<f32>,
-        wi: Vec3<f32>,
+        from: impl Into<Viewpoint>,
         hit_p: Vec3<f32>,
         hit_n: Vec3<f32>,
     ) -> f32 {
-        // The direction follows from the two points; it is asked for because a density warped by it will need it.
-        let _ = wi;
-        let per_area = |pdf: f64| per_steradian(pdf, from, hit_p, hit_n).unwrap_or(0.0);
+        let from = &from.into();
+        let per_area = |pdf: f64| per_steradian(pdf, from.p, hit_p, hit_n).unwrap_or(0.0);
         match self.body(shape) {
-            Some(Body::Triangles(m)) => m.pdf_from(prim, from, per_area),
+            Some(Body::Triangles(m)) => m.pdf_from(prim, from, hit_p, per_area),
             Some(Body::Patches(m)) => m.pdf_from(prim, from, hit_p, hit_n, per_area),
-            Some(Body::Quadric(Some(q))) => q.pdf_from(from, hit_n, per_area),
+            Some(Body::Quadric(Some(q))) => q.pdf_from(from.p, hit_n, per_area),
             Some(Body::Curves(_) | Body::Quadric(None)) | None => 0.0,
         }
     }

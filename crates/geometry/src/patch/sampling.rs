@@ -6,37 +6,14 @@ use super::flat::Flat;
 use super::surface::Place;
 use super::{Bilinear, Kind, Patches};
 use crate::point::ShapeSample;
-use crate::sample::{SphericalRectangle, direction, seen_from};
+use crate::sample::{Bilinear as Density, SphericalRectangle, Viewpoint, WARPED, direction, seen_from};
 
 /// Rectangles are drawn by area where they fill less of the sphere than this; value of pbrt-v4.
 const MIN_SOLID_ANGLE: f64 = 1e-4;
 
-/// A density on the unit square that is bilinear between its values at the corners.
-struct Density([f64; 4]);
-
-/// Draws from the density on [0, 1] that runs from `a` to `b`.
-fn sample_linear(u: f64, a: f64, b: f64) -> f64 {
-    let x = u * (a + b) / (a + (a * a + u * (b * b - a * a)).sqrt());
-    if x.is_finite() { x.min(1.0) } else { u }
-}
-
-impl Density {
-    /// Close to uniform by area: the area elements at the corners.
-    fn of(p: &Bilinear) -> Density {
-        let w = [p.stretch(0.0, 0.0), p.stretch(1.0, 0.0), p.stretch(0.0, 1.0), p.stretch(1.0, 1.0)];
-        Density(if w.iter().sum::<f64>() > 0.0 { w } else { [1.0; 4] })
-    }
-    fn sample(&self, u: [f32; 2]) -> [f64; 2] {
-        let [w00, w10, w01, w11] = self.0;
-        let y = sample_linear(u[1].into(), w00 + w10, w01 + w11);
-        let x = sample_linear(u[0].into(), w00 + y * (w01 - w00), w10 + y * (w11 - w10));
-        [x, y]
-    }
-    fn pdf(&self, u: f64, v: f64) -> f64 {
-        let [w00, w10, w01, w11] = self.0;
-        let at = (w00 * (1.0 - v) + w01 * v) * (1.0 - u) + (w10 * (1.0 - v) + w11 * v) * u;
-        4.0 * at / (w00 + w10 + w01 + w11)
-    }
+/// Close to uniform by area: the area elements at the corners.
+fn by_area(p: &Bilinear) -> Density {
+    Density::new([p.stretch(0.0, 0.0), p.stretch(1.0, 0.0), p.stretch(0.0, 1.0), p.stretch(1.0, 1.0)])
 }
 
 impl Patches {
@@ -62,7 +39,6 @@ impl Patches {
             p,
             p_error,
             n: self.shading_normal(prim, u, v).map_or(n, |ns| n.facing(ns)),
-            uv: self.uv(prim, u, v),
             wi: Vec3::splat(0.0),
             distance: 0.0,
             pdf: pdf as f32,
@@ -74,18 +50,25 @@ impl Patches {
         }
         self.usable(prim)?;
         let patch = self.bilinear(prim);
-        let density = Density::of(&patch);
+        let density = by_area(&patch);
         let [u, v] = density.sample(u);
-        let pdf = density.pdf(u, v) / patch.stretch(u, v);
+        let pdf = density.pdf([u, v]) / patch.stretch(u, v);
         pdf.is_finite().then(|| self.sample_at(prim, [u as f32, v as f32], pdf))
     }
     #[inline]
-    pub(crate) fn sample_from(&self, prim: u32, from: Vec3<f32>, u: [f32; 2]) -> Option<ShapeSample> {
-        let Some((flat, r)) = self.flat(prim).and_then(|f| Some((f, by_solid_angle(f, from)?))) else {
-            return seen_from(self.sample_area(prim, u)?, from);
+    pub(crate) fn sample_from(&self, prim: u32, from: &Viewpoint, u: [f32; 2]) -> Option<ShapeSample> {
+        let Some((flat, r)) = self.flat(prim).and_then(|f| Some((f, by_solid_angle(f, from.p)?))) else {
+            return seen_from(self.sample_area(prim, u)?, from.p);
         };
-        let s = self.sample_at(prim, flat.parameters(r.sample(u)), 1.0 / r.solid_angle);
-        let (wi, distance) = direction(from, s.p)?;
+        let (u, density) = match follow_cosine(flat, &r, from) {
+            Some(warp) => {
+                let u = warp.sample(u);
+                (u, warp.pdf(u))
+            }
+            None => (u.map(f64::from), 1.0),
+        };
+        let s = self.sample_at(prim, flat.parameters(r.sample(u)), density / r.solid_angle);
+        let (wi, distance) = direction(from.p, s.p)?;
         Some(ShapeSample { wi, distance, ..s })
     }
     /// Density per steradian of [`sample_from`](Self::sample_from) for a direction that met the patch at `hit_p`
@@ -93,16 +76,17 @@ impl Patches {
     pub(crate) fn pdf_from(
         &self,
         prim: u32,
-        from: Vec3<f32>,
+        from: &Viewpoint,
         hit_p: Vec3<f32>,
         hit_n: Vec3<f32>,
         per_area: impl Fn(f64) -> f32,
     ) -> f32 {
         if let Some(flat) = self.flat(prim) {
-            return match by_solid_angle(flat, from) {
-                Some(r) => (1.0 / r.solid_angle) as f32,
-                None => per_area(1.0 / flat.area),
-            };
+            let Some(r) = by_solid_angle(flat, from.p) else { return per_area(1.0 / flat.area) };
+            let at = hit_p.to_f64() - flat.edges.corner;
+            let density = follow_cosine(flat, &r, from)
+                .map_or(1.0, |warp| warp.pdf(r.invert(flat.edges.axes.map(|a| at.dot(a)))));
+            return (density / r.solid_angle) as f32;
         }
         if self.usable(prim).is_none() {
             return 0.0;
@@ -113,7 +97,7 @@ impl Patches {
         let nearest = roots.min_by(|a, b| a.t.abs().total_cmp(&b.t.abs()));
         nearest.map_or(0.0, |r| {
             let (u, v) = (r.u.clamp(0.0, 1.0), r.v.clamp(0.0, 1.0));
-            per_area(Density::of(&patch).pdf(u, v) / patch.stretch(u, v))
+            per_area(by_area(&patch).pdf([u, v]) / patch.stretch(u, v))
         })
     }
 }
@@ -126,4 +110,13 @@ fn by_solid_angle(flat: &Flat, from: Vec3<f32>) -> Option<SphericalRectangle> {
     }
     let r = SphericalRectangle::new(&flat.edges, from.to_f64());
     (r.solid_angle >= MIN_SOLID_ANGLE).then_some(r)
+}
+
+/// The density of the unit square by which directions to a rectangle follow the cosine at the viewpoint.
+#[inline]
+fn follow_cosine(flat: &Flat, r: &SphericalRectangle, from: &Viewpoint) -> Option<Density> {
+    let n = from.n.filter(|_| WARPED.contains(&r.solid_angle))?;
+    let [lx, ly] = flat.edges.lengths;
+    let corners = [[0.0, 0.0], [lx, 0.0], [0.0, ly], [lx, ly]];
+    Some(Density::of_cosines(n, corners.map(|at| flat.edges.at(at) - from.p.to_f64())))
 }

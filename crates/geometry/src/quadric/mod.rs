@@ -124,11 +124,10 @@ impl Quadric {
         self.form.local(o + d * nearest)
     }
 
-    /// The point of a ball in direction `out` from its centre: in object space, in the world, and its normal there.
+    /// The point of a ball in direction `out` from its centre, and its normal there, in the world.
     #[inline]
-    fn on_ball(&self, ball: &Ball, out: Vec3<f64>) -> (Local, Vec3<f64>, Vec3<f64>) {
-        let l = self.form.local(self.to_object.vector(out));
-        (l, ball.center + out * ball.radius, if self.flip { -out } else { out })
+    fn on_ball(&self, ball: &Ball, out: Vec3<f64>) -> (Vec3<f64>, Vec3<f64>) {
+        (ball.center + out * ball.radius, if self.flip { -out } else { out })
     }
 
     /// Bound of the rounding error of a world-space point on the surface.
@@ -145,7 +144,11 @@ impl Quadric {
     /// The surface at a hit; meanings as in pbrt-v4.
     pub(crate) fn surface(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
         let (l, p, ng) = match &self.ball {
-            Some(ball) => self.on_ball(ball, ball.outward(ray, hit.t)),
+            Some(ball) => {
+                let out = ball.outward(ray, hit.t);
+                let (p, n) = self.on_ball(ball, out);
+                (self.form.local(self.to_object.vector(out)), p, n)
+            }
             None => {
                 let l = self.local(ray, hit.t);
                 (l, self.to_world.point(l.p), self.world_normal(l.n))

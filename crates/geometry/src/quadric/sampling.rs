@@ -55,7 +55,6 @@ impl Quadric {
             p: p.to_f32(),
             p_error: Self::p_error(p),
             n: n.to_f32(),
-            uv: l.uv,
             wi: Vec3::splat(0.0),
             distance: 0.0,
             pdf: self.pdf_area(n) as f32,
@@ -84,12 +83,11 @@ impl Quadric {
         let half = (radius * radius - (to_center - wi * along).length2()).max(0.0).sqrt();
         let t = if cone.is_some() { along - half } else { along + half };
         let out = (wi * t - to_center).normalized();
-        let (l, p, n) = self.on_ball(ball, out);
+        let (p, n) = self.on_ball(ball, out);
         (t > 0.0 && p.x.is_finite()).then(|| ShapeSample {
             p: p.to_f32(),
             p_error: Self::p_error(p),
             n: n.to_f32(),
-            uv: l.uv,
             wi: wi.to_f32(),
             distance: t as f32,
             pdf: pdf as f32,

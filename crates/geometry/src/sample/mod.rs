@@ -1,14 +1,22 @@
 //! Drawing directions to shapes.
 
+mod bilinear;
 mod rectangle;
 mod triangle;
+mod viewpoint;
 
+pub(crate) use bilinear::Bilinear;
 pub(crate) use rectangle::{Edges, SphericalRectangle};
 pub(crate) use triangle::SphericalTriangle;
+pub use viewpoint::Viewpoint;
 
 use sparrow_math::Vec3;
 
 use crate::point::ShapeSample;
+
+/// Solid angles for which directions follow the cosine: smaller shapes are seen under one, and of larger ones the corners say
+/// little about the middle.
+pub(crate) const WARPED: core::ops::RangeInclusive<f64> = 0.1..=3.0;
 
 /// A density per area at a point, as one per steradian seen from elsewhere; `None` where that is infinite.
 pub(crate) fn per_steradian(pdf: f64, from: Vec3<f32>, p: Vec3<f32>, n: Vec3<f32>) -> Option<f32> {

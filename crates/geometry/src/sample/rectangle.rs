@@ -60,7 +60,12 @@ impl SphericalRectangle {
         let [lx, ly] = edges.lengths;
         let d = edges.corner - from;
         let (x0, y0, z) = (d.dot(ax), d.dot(ay), d.dot(ax.cross(ay)).abs());
-        let (x1, y1) = (x0 + lx, y0 + ly);
+        SphericalRectangle::within([x0, x0 + lx], [y0, y0 + ly], z)
+    }
+
+    /// The rectangle with these sides, seen from the origin at distance `z` of its plane.
+    #[inline]
+    fn within([x0, x1]: [f64; 2], [y0, y1]: [f64; 2], z: f64) -> SphericalRectangle {
         // [Urena2013, section 3.3] measures the inner angles of the rectangle's corners on the sphere. Here they are
         // taken less pi/2, as atan(x y / (z r)), which needs no normals: opposite corners add, neighbours subtract.
         let zr = |x: f64, y: f64| z * (x * x + y * y + z * z).sqrt();
@@ -71,14 +76,14 @@ impl SphericalRectangle {
         // The solid angle lies in [0, 2 pi]. Beyond pi the rectangle has to lie around the foot of the observer;
         // elsewhere only rounding makes it negative.
         let a = Real::atan2(s, c);
-        let below = x0 < 0.0 && x1 > 0.0 && y0 < 0.0 && y1 > 0.0 && z < lx.max(ly);
+        let below = x0 < 0.0 && x1 > 0.0 && y0 < 0.0 && y1 > 0.0 && z < (x1 - x0).max(y1 - y0);
         let solid_angle = if a < 0.0 && below { a + core::f64::consts::TAU } else { a.max(0.0) };
         SphericalRectangle { x: [x0, x1], y: [y0, y1], z, at_x0: [zr00, zr01], solid_angle }
     }
 
     /// Place on the rectangle, as lengths along its edges, in a uniformly drawn direction.
     #[inline]
-    pub(crate) fn sample(&self, u: [f32; 2]) -> [f64; 2] {
+    pub(crate) fn sample(&self, u: [f64; 2]) -> [f64; 2] {
         let ([x0, x1], [y0, y1], z) = (self.x, self.y, self.z);
         let z2 = z * z;
         // One over the distances of the edges at x0, y0 and y1.
@@ -89,7 +94,7 @@ impl SphericalRectangle {
         // The inner angles at the corners (x0, y1) and (x0, y0), and their sum.
         let (w01, w00) = (wx0 * wy1, wx0 * wy0);
         let last = times((x0 * y1 * w01, self.at_x0[1] * w01), (-x0 * y0 * w00, self.at_x0[0] * w00));
-        let (sin, cos) = Real::sin_cos(f64::from(u[0]) * self.solid_angle);
+        let (sin, cos) = Real::sin_cos(u[0] * self.solid_angle);
         let (cos_au, sin_au) = times((cos, sin), back(last));
         // [Urena2013, figure 4], with fu, cu and xu put together into one fraction; 1 - b0^2 is z^2 wy0^2.
         let f = cos_au * b0 - b1;
@@ -99,9 +104,19 @@ impl SphericalRectangle {
         // The sine of the angle to the plane of x and z runs evenly from that of y0 to that of y1; it is n / d.
         let (r0, r1) = ((d2 + y0 * y0).sqrt(), (d2 + y1 * y1).sqrt());
         let d = r0 * r1;
-        let n = y0 * r1 + f64::from(u[1]) * (y1 * r0 - y0 * r1);
+        let n = y0 * r1 + u[1] * (y1 * r0 - y0 * r1);
         let yv = Real::clamp(n * (d2 / (d * d - n * n)).sqrt(), y0, y1);
         [xu - x0, yv - y0]
+    }
+
+    /// The place of the unit square that [`sample`](Self::sample) maps to that place on the rectangle.
+    #[inline]
+    pub(crate) fn invert(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        let ([x0, x1], [y0, y1], z) = (self.x, self.y, self.z);
+        let (x, y) = (Real::clamp(x0 + x, x0, x1), Real::clamp(y0 + y, y0, y1));
+        let part = SphericalRectangle::within([x0, x], self.y, z);
+        let sine = |y: f64| y / (x * x + y * y + z * z).sqrt();
+        [part.solid_angle / self.solid_angle, (sine(y) - sine(y0)) / (sine(y1) - sine(y0))]
     }
 }
 
@@ -126,6 +141,21 @@ mod tests {
         let [x, y] = rectangle(vec3(-1.0, -1.0, 0.3), [2.0; 2]).sample([0.5, 0.5]);
         assert!((x - 1.0).abs() < 1e-9 && (y - 1.0).abs() < 1e-9, "{x} {y}");
     }
+    /// What is drawn is found again.
+    #[test]
+    fn inverse() {
+        for (corner, lengths) in [
+            (vec3(-1.0, -1.0, 0.3), [2.0, 2.0]),
+            (vec3(0.5, -3.0, 1.0), [0.7, 4.0]),
+            (vec3(-9.0, 2.0, 0.01), [20.0, 0.5]),
+        ] {
+            let r = rectangle(corner, lengths);
+            for u in [[0.1, 0.9], [0.5, 0.5], [0.83, 0.02], [0.999, 0.4]] {
+                let v = r.invert(r.sample(u));
+                assert!((u[0] - v[0]).abs() + (u[1] - v[1]).abs() < 1e-7, "{corner:?}: {v:?} for {u:?}");
+            }
+        }
+    }
     /// The part of the rectangle before the drawn x fills the part `u[0]` of its solid angle, wherever the observer
     /// stands: beside, behind, close to the plane, far away.
     #[test]
@@ -137,7 +167,7 @@ mod tests {
                 for u in [0.01, 0.3, 0.8, 0.99] {
                     let part = rectangle(vec3(x, y, z), [whole.sample([u, 0.5])[0], ly]);
                     let said = part.solid_angle / whole.solid_angle;
-                    assert!((said - f64::from(u)).abs() < 1e-7, "{x} {y} {z}: {said} for {u}");
+                    assert!((said - u).abs() < 1e-7, "{x} {y} {z}: {said} for {u}");
                 }
             }
         }

@@ -33,8 +33,8 @@ impl SphericalTriangle {
     }
 
     /// Weights of the corners of the point in a uniformly drawn direction.
-    pub(crate) fn sample(&self, u: [f32; 2]) -> Option<[f32; 3]> {
-        let w = self.direction(u.map(f64::from));
+    pub(crate) fn sample(&self, u: [f64; 2]) -> Option<[f32; 3]> {
+        let w = self.direction(u);
         // The point of the plane in that direction, by Cramer's rule.
         let (e1, e2) = (self.p[1] - self.p[0], self.p[2] - self.p[0]);
         let s1 = w.cross(e2);
@@ -43,6 +43,26 @@ impl SphericalTriangle {
         let b1 = Real::clamp(s.dot(s1) * inv, 0.0, 1.0);
         let b2 = Real::clamp(w.dot(s.cross(e1)) * inv, 0.0, 1.0 - b1);
         inv.is_finite().then_some([(1.0 - b1 - b2) as f32, b1 as f32, b2 as f32])
+    }
+
+    /// The corners as the unit square has them: the whole sides at `u[1] = 0` are the second one.
+    pub(crate) fn square(&self) -> [Vec3<f64>; 4] {
+        let [a, b, c] = self.dir;
+        [b, b, a, c]
+    }
+
+    /// The place of the unit square that [`sample`](Self::sample) maps to that direction, which need not be a unit vector.
+    pub(crate) fn invert(&self, w: Vec3<f64>) -> [f64; 2] {
+        let ([a, b, c], w) = (self.dir, w.normalized());
+        // Where the great circle through `b` and `w` meets the opposite side.
+        let met = b.cross(w).cross(c.cross(a));
+        let met = (if met.dot(a + c) < 0.0 { -met } else { met }).normalized();
+        if !met.x.is_finite() {
+            return [0.5, 0.0];
+        }
+        // 1 - cos is half of the squared distance.
+        let beside = solid_angle(a, b, met) / self.solid_angle;
+        [beside, (w - b).length2() / (met - b).length2()]
     }
 
     /// Maps the unit square to directions, preserving area: `u[0]` chooses the area of the part of the triangle
@@ -76,6 +96,21 @@ mod tests {
     use super::*;
     use sparrow_math::vec3;
 
+    /// What is drawn is found again, in small triangles as in large ones.
+    #[test]
+    fn inverse() {
+        for p in [
+            [vec3(1.0, 0.0, 0.2), vec3(0.0, 1.0, 0.0), vec3(0.0, 0.3, 1.0)],
+            [vec3(-8.0, -5.0, 0.2), vec3(9.0, -4.0, 0.1), vec3(0.0, 7.0, 0.2)],
+            [vec3(0.0, 0.0, 9.0), vec3(1.0, 0.1, 9.0), vec3(0.0, 1.0, 9.5)],
+        ] {
+            let t = SphericalTriangle::new(p, Vec3::splat(0.0)).unwrap();
+            for u in [[0.1, 0.9], [0.5, 0.5], [0.83, 0.02], [0.999, 0.4]] {
+                let v = t.invert(t.direction(u));
+                assert!((u[0] - v[0]).abs() + (u[1] - v[1]).abs() < 1e-7, "{p:?}: {v:?} for {u:?}");
+            }
+        }
+    }
     /// An octant fills pi/2; a far small triangle its area over the distance squared.
     #[test]
     fn solid_angles() {

@@ -49,8 +49,8 @@ pub fn compile(mut desc: SceneDesc) -> Result<Compiled, CompileError> {
     }
 
     let compensate = desc.integrator.mis_compensation && desc.integrator.mis != Mis::LightOnly;
-    let lights = LightBuild { desc: &desc, geometry: &geometry, emitters: &emitters, compensate }
-        .build(&mut faults, &mut notes);
+    let lights =
+        LightBuild { desc: &desc, geometry: &geometry, emitters: &emitters, compensate }.build(&mut faults);
     if !faults.is_empty() {
         return Err(CompileError(faults));
     }

@@ -1,10 +1,14 @@
-//! Integrators: radiance along a camera ray.
+//! Integrators: radiance along camera rays, one path at a time or many side by side.
 
+mod block;
 mod path;
 mod record;
+mod start;
 
+pub(crate) use block::{Block, Column, pad};
 pub use path::PathIntegrator;
 pub use record::{Finder, Record};
+pub(crate) use start::{CameraNumbers, CameraSample, Exposed};
 
 /// Rays traced, by kind.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

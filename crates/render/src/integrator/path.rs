@@ -7,7 +7,7 @@ use sparrow_scene::{IntegratorDesc, IntegratorName};
 use sparrow_spectra::{Spectrum, Wavelengths};
 
 use super::{Finder, RayCounts, Record};
-use crate::light::LitPoint;
+use crate::light::{LightSample, LitPoint};
 use crate::sampler::PixelSampler;
 use crate::scatter::{Density, Scatter};
 use crate::scene::{LastVertex, Scene};
@@ -17,11 +17,21 @@ const FIRST_BOUNCE: u32 = 4;
 /// Dimensions of one bounce: light (1 + 2), direction (1 + 2), roulette (1).
 const PER_BOUNCE: u32 = 7;
 
+/// Dimensions of the bounce at a vertex: the choice of a light, then a point of it.
+pub(super) fn light_dimension(depth: u32) -> u32 {
+    FIRST_BOUNCE + depth * PER_BOUNCE
+}
+
+/// Dimensions of the way on from a vertex: lobe, direction, roulette.
+pub(super) fn scatter_dimension(depth: u32) -> u32 {
+    light_dimension(depth) + 3
+}
+
 /// Probability with which a path goes on that carries `carried` of what it began with.
 ///
 /// Paths are ended only when they have lost more than half: ending them in proportion to what they lost, as pbrt-v4
 /// does, costs a third more error on diffuse scenes for the same time (`docs/performance.md`).
-fn roulette(carried: f32) -> f32 {
+pub(super) fn roulette(carried: f32) -> f32 {
     if carried < 1.0 { (2.0 * carried).min(0.95) } else { 1.0 }
 }
 
@@ -84,7 +94,7 @@ impl PathIntegrator {
             }
 
             // Direct light.
-            sampler.set_dimension(FIRST_BOUNCE + depth * PER_BOUNCE);
+            sampler.set_dimension(light_dimension(depth));
             let turn = self.mis.turn(sampler.get_1d());
             if turn.light && bsdf.has_smooth_lobe() {
                 let found = |light, w| record.found(Finder::Light(depth), beta * light, w);
@@ -92,7 +102,7 @@ impl PathIntegrator {
             }
 
             // Next vertex.
-            sampler.set_dimension(FIRST_BOUNCE + depth * PER_BOUNCE + 3);
+            sampler.set_dimension(scatter_dimension(depth));
             let (lobe, dir) = (sampler.get_1d(), sampler.get_2d());
             let Some(s) = bsdf.sample(wo, lobe, dir) else { break };
             beta *= s.weight;
@@ -147,8 +157,28 @@ impl PathIntegrator {
         if !scene.unoccluded(point, &light) {
             return Spectrum::ZERO;
         }
-        let w = if light.delta { 1.0 } else { self.mis.light_weight(light.pdf, pdf) };
-        found(f_cos * light.radiance * (1.0 / light.pdf), w);
-        f_cos * light.radiance * (w / light.pdf)
+        let s = Scattered::new(self.mis, &light, f_cos, pdf);
+        found(s.unweighted, s.weight);
+        s.weighted
+    }
+}
+
+/// What a light that is seen adds at a vertex.
+pub(super) struct Scattered {
+    /// `f_cos L / p_light`
+    pub(super) unweighted: Spectrum<f32>,
+    /// The MIS weight.
+    pub(super) weight: f32,
+    /// Their product.
+    pub(super) weighted: Spectrum<f32>,
+}
+
+impl Scattered {
+    /// From value times cosine towards the light, and the density with which the BSDF draws that direction.
+    #[inline]
+    pub(super) fn new(mis: Mis, light: &LightSample, f_cos: Spectrum<f32>, pdf: f32) -> Scattered {
+        let w = if light.delta { 1.0 } else { mis.light_weight(light.pdf, pdf) };
+        let arrives = f_cos * light.radiance;
+        Scattered { unweighted: arrives * (1.0 / light.pdf), weight: w, weighted: arrives * (w / light.pdf) }
     }
 }

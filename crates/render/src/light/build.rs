@@ -6,10 +6,12 @@ use std::path::Path;
 use sparrow_geometry::{Geometry, ShapeSample};
 use sparrow_image::Image;
 use sparrow_math::{Aabb, Frame, Real, Transform, Vec3, vec3};
+use sparrow_mis::Mis;
 use sparrow_scene::{AreaLightId, Emission, LightDesc, LightKind, LightSamplerName, SceneDesc};
 use sparrow_spectra::{ColorSpace, photometric};
 
-use super::selection::{LightBounds, WEIGH_ALL};
+use super::bounds::{Cone, LightBounds};
+use super::portal::Portal;
 use super::{Environment, EnvironmentColour, Light, LightSelection, Lights, NO_LIGHT};
 use crate::colour::{Carrier, converted};
 use crate::spectrum::SceneSpectrum;
@@ -29,8 +31,8 @@ pub struct LightBuild<'a> {
 }
 
 impl LightBuild<'_> {
-    /// Builds all lights. Images that cannot be read go to `faults`, remarks to `notes`.
-    pub fn build(&self, faults: &mut Vec<String>, notes: &mut Vec<String>) -> Lights {
+    /// Builds all lights. Images that cannot be read go to `faults`.
+    pub fn build(&self, faults: &mut Vec<String>) -> Lights {
         let mut out = Parts {
             lights: Vec::new(),
             carrier: Carrier::new(&self.desc.film),
@@ -53,7 +55,7 @@ impl LightBuild<'_> {
                 faults.push(e);
             }
         }
-        let selection = self.selection(&out, notes);
+        let selection = self.selection(&out);
         Lights {
             lights: out.lights,
             emissions: out.emissions,
@@ -64,7 +66,7 @@ impl LightBuild<'_> {
         }
     }
 
-    fn selection(&self, parts: &Parts, notes: &mut Vec<String>) -> LightSelection {
+    fn selection(&self, parts: &Parts) -> LightSelection {
         let usable: Vec<bool> =
             parts.lights.iter().map(|l| !matches!(l, Light::Uniform { left_to_bsdf: true, .. })).collect();
         let powers = || -> Vec<f32> {
@@ -76,17 +78,13 @@ impl LightBuild<'_> {
                 LightSelection::fixed(&ones)
             }
             LightSamplerName::Power => LightSelection::fixed(&powers()),
-            LightSamplerName::Bvh if parts.lights.len() <= WEIGH_ALL => {
-                LightSelection::weighed(&parts.bounds, &usable)
-            }
-            LightSamplerName::Bvh => {
-                notes.push(format!(
-                    "light sampler \"bvh\": {} lights are chosen by power; weighing by place is done for up to {WEIGH_ALL}",
-                    parts.lights.len()
-                ));
-                LightSelection::fixed(&powers())
-            }
+            LightSamplerName::Bvh => LightSelection::by_place(&parts.bounds, &usable),
         }
+    }
+
+    /// The corners of a light's portal. Where light sampling is alone it has to find what does not come through it too.
+    fn portal(&self, light: &LightDesc) -> Option<[Vec3<f64>; 4]> {
+        light.portal.filter(|_| self.desc.integrator.mis != Mis::LightOnly)
     }
 
     /// One light per primitive of an emitting shape.
@@ -108,14 +106,14 @@ impl LightBuild<'_> {
             out.bounds.push(LightBounds {
                 power: brightness * sides * self.geometry.area(shape, prim) * core::f32::consts::PI,
                 bounds,
-                facing: facing.filter(|_| !desc.two_sided),
+                cone: facing.map_or(Cone::ALL, |n| Cone::facing(n, desc.two_sided)),
             });
         }
     }
 
     /// Where a primitive lies, from a grid of its points, and its normal where that is the same everywhere.
     fn primitive_bounds(&self, shape: u32, prim: u32) -> (Aabb, Option<Vec3<f32>>) {
-        let grid = [0.0, 0.2, 0.4, 0.6, 0.8, 0.999_999];
+        let grid = [0.0, 0.25, 0.5, 0.75, 0.999_999];
         let samples: Vec<ShapeSample> = grid
             .iter()
             .flat_map(|&u| grid.map(|v| [u, v]))
@@ -137,7 +135,7 @@ impl LightBuild<'_> {
                 let scale = with_power(intensity.scale, *power, four_pi);
                 let p = light.to_world.point(*from).to_f32();
                 let strength = out.brightness(emission) * scale * four_pi;
-                out.push(Light::Point { p, emission, scale }, strength, Aabb::EMPTY.grow(p));
+                out.push(Light::Point { p, emission, scale }, strength, Aabb::EMPTY.grow(p), Cone::ALL);
             }
             LightKind::Spot { intensity, power, from, to, cone_angle, cone_delta } => {
                 let emission = out.emission(intensity);
@@ -147,11 +145,13 @@ impl LightBuild<'_> {
                 let scale = with_power(intensity.scale, *power, solid_angle);
                 let (p, to_light) = spot_frame(&light.to_world, *from, *to);
                 let strength = out.brightness(emission) * scale * solid_angle;
+                let cone = spot_cone(&to_light, *cone_angle, cone_angle - cone_delta);
                 let to_light = Box::new(to_light);
                 out.push(
                     Light::Spot { p, to_light, cos_end, cos_start, emission, scale },
                     strength,
                     Aabb::EMPTY.grow(p),
+                    cone,
                 );
             }
             LightKind::Distant { radiance, illuminance, from, to } => {
@@ -159,26 +159,34 @@ impl LightBuild<'_> {
                 let scale = with_power(radiance.scale, *illuminance, 1.0);
                 let wi = light.to_world.vector(*from - *to).normalized().to_f32();
                 let strength = out.brightness(emission) * scale * disk;
-                out.push(Light::Distant { wi, emission, scale }, strength, Aabb::EMPTY);
+                out.push(Light::Distant { wi, emission, scale }, strength, Aabb::EMPTY, Cone::ALL);
             }
             LightKind::Infinite { radiance, illuminance } => {
                 let emission = out.emission(radiance);
                 let scale = with_power(radiance.scale, *illuminance, core::f32::consts::PI);
                 let strength = out.brightness(emission) * scale * four_pi * disk;
                 out.infinite.push(out.lights.len() as u32);
+                let portal = self.portal(light).and_then(|p| Portal::new(p, 32, |_| 1.0)).map(Box::new);
                 out.push(
-                    Light::Uniform { emission, scale, left_to_bsdf: self.compensate },
+                    Light::Uniform {
+                        emission,
+                        scale,
+                        left_to_bsdf: self.compensate && portal.is_none(),
+                        portal,
+                    },
                     strength,
                     Aabb::EMPTY,
+                    Cone::ALL,
                 );
             }
             LightKind::InfiniteImage { path, scale, illuminance, color_space } => {
                 let image =
                     EnvironmentImage { path, scale: *scale, illuminance: *illuminance, space: *color_space };
-                let env = image.load(&light.to_world, self.compensate, out.carrier)?;
+                let env =
+                    image.load(&light.to_world, self.compensate, out.carrier)?.through(self.portal(light));
                 out.infinite.push(out.lights.len() as u32);
                 let strength = env.mean() * four_pi * disk;
-                out.push(Light::Environment(Box::new(env)), strength, Aabb::EMPTY);
+                out.push(Light::Environment(Box::new(env)), strength, Aabb::EMPTY, Cone::ALL);
             }
         }
         Ok(())
@@ -248,9 +256,9 @@ impl Parts {
     fn brightness(&self, emission: u32) -> f32 {
         self.carrier.luminance(&self.emissions[emission as usize])
     }
-    fn push(&mut self, light: Light, power: f32, bounds: Aabb) {
+    fn push(&mut self, light: Light, power: f32, bounds: Aabb, cone: Cone) {
         self.lights.push(light);
-        self.bounds.push(LightBounds { power, bounds, facing: None });
+        self.bounds.push(LightBounds { power, bounds, cone });
     }
 }
 
@@ -274,6 +282,21 @@ fn spot_frame(to_world: &Transform, from: Vec3<f64>, to: Vec3<f64>) -> (Vec3<f32
     ];
     let placed = to_world.then_first(&Transform::from_rows(rows).unwrap_or_default());
     (placed.point(vec3(0.0, 0.0, 0.0)).to_f32(), placed.inverse())
+}
+
+/// Where a spot light shines: fully up to one angle, in degrees, and nowhere beyond the other.
+fn spot_cone(to_light: &Transform, end: f32, start: f32) -> Cone {
+    let to_world = to_light.inverse();
+    let axes = [vec3(1.0, 0.0, 0.0), vec3(0.0, 1.0, 0.0), vec3(0.0, 0.0, 1.0)].map(|a| to_world.vector(a));
+    let [x, y, z] = axes.map(Vec3::normalized);
+    let lengths = axes.map(Vec3::length);
+    let even = lengths.iter().all(|l| (l / lengths[2] - 1.0).abs() < 1e-4);
+    // A map that stretches or shears bends the cone.
+    if !even || [x.dot(y), y.dot(z), z.dot(x)].iter().any(|c| c.abs() > 1e-4) {
+        return Cone::ALL;
+    }
+    let [end, start] = [end, start.max(0.0)].map(|deg| f64::from(deg).to_radians());
+    Cone { axis: z, normals: start, emission: (end - start).max(0.0), two_sided: false }
 }
 
 /// Illuminance on a surface facing +z of the map, for an image of unit scale.

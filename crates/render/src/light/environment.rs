@@ -5,8 +5,12 @@ use core::f32::consts::PI;
 use sparrow_math::{Transform, Vec3, warp};
 use sparrow_spectra::{ColorSpace, DenseSpectrum, Spectrum, Wavelengths, rgb_to_sigmoid};
 
+use super::portal::Portal;
 use crate::colour::four;
 use crate::distribution::{Draw2, Piecewise2};
+
+/// Cells along a side of a portal's view of a map: 8 MiB.
+const MOST_PORTAL_CELLS: usize = 1024;
 
 /// What the pixels of an environment map stand for.
 #[derive(Debug)]
@@ -31,6 +35,8 @@ pub struct Environment {
     scale: f32,
     colour: EnvironmentColour,
     density: Piecewise2,
+    /// The opening through which it is sampled.
+    portal: Option<Box<Portal>>,
     /// Rotation of the map, by columns: map to world.
     axes: [Vec3<f32>; 3],
 }
@@ -65,12 +71,28 @@ impl Environment {
             scale,
             colour,
             density: Piecewise2::new(&brightness, n, n),
+            portal: None,
             axes: e.map(|(x, y, z)| axis(sparrow_math::vec3(x, y, z))),
         }
     }
 
-    /// A direction and its density in 1/sr.
-    pub fn sample(&self, u: [f32; 2]) -> Option<(Vec3<f32>, f32)> {
+    /// The same, sampled through a rectangle with these corners.
+    #[must_use]
+    pub(super) fn through(mut self, corners: Option<[Vec3<f64>; 4]>) -> Environment {
+        let brightness = |wi| {
+            let c = self.pixel(wi);
+            (c[0] + c[1] + c[2]) / 3.0
+        };
+        let side = self.n.clamp(64, MOST_PORTAL_CELLS);
+        self.portal = corners.and_then(|c| Portal::new(c, side, brightness)).map(Box::new);
+        self
+    }
+
+    /// A direction for the point `from`, and its density in 1/sr.
+    pub fn sample(&self, from: Vec3<f32>, u: [f32; 2]) -> Option<(Vec3<f32>, f32)> {
+        if let Some(portal) = &self.portal {
+            return portal.sample(from, u);
+        }
         let Draw2 { p: st, pdf, .. } = self.density.sample(u);
         if !(pdf > 0.0) {
             return None;
@@ -79,16 +101,24 @@ impl Environment {
         Some((self.axes[0] * d.x + self.axes[1] * d.y + self.axes[2] * d.z, pdf / (4.0 * PI)))
     }
 
-    /// Density of a direction, in 1/sr.
-    pub fn pdf(&self, wi: Vec3<f32>) -> f32 {
-        self.density.pdf(self.square(wi)) / (4.0 * PI)
+    /// Density of a direction for the point `from`, in 1/sr.
+    pub fn pdf(&self, from: Vec3<f32>, wi: Vec3<f32>) -> f32 {
+        match &self.portal {
+            Some(portal) => portal.pdf(from, wi),
+            None => self.density.pdf(self.square(wi)) / (4.0 * PI),
+        }
+    }
+
+    /// The pixel that a direction falls into.
+    fn pixel(&self, wi: Vec3<f32>) -> [f32; 3] {
+        let st = self.square(wi);
+        let at = |v: f32| ((v * self.n as f32) as usize).min(self.n - 1);
+        self.rgb[at(st[1]) * self.n + at(st[0])]
     }
 
     /// Radiance from a direction.
     pub fn radiance(&self, wi: Vec3<f32>, w: &Wavelengths) -> Spectrum<f32> {
-        let st = self.square(wi);
-        let at = |v: f32| ((v * self.n as f32) as usize).min(self.n - 1);
-        let rgb = self.rgb[at(st[1]) * self.n + at(st[0])];
+        let rgb = self.pixel(wi);
         let EnvironmentColour::Spectral { space, illuminant } = &self.colour else {
             return Spectrum(four(rgb)) * self.scale;
         };
@@ -108,7 +138,7 @@ impl Environment {
 
     /// Memory, in bytes.
     pub fn bytes(&self) -> usize {
-        self.rgb.len() * 12 + self.density.bytes()
+        self.rgb.len() * 12 + self.density.bytes() + self.portal.as_ref().map_or(0, |p| p.bytes())
     }
 
     fn square(&self, wi: Vec3<f32>) -> [f32; 2] {

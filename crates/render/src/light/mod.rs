@@ -1,14 +1,23 @@
 //! Lights: what they send towards a point, and how likely a direction is to be sampled.
 
+mod bounds;
 mod build;
+mod eight;
 mod environment;
+mod group;
+mod portal;
 mod selection;
+#[cfg(test)]
+mod tests;
+mod tree;
 
-use sparrow_geometry::{Geometry, ShapeSample, SurfacePoint};
+use sparrow_geometry::{Geometry, ShapeSample, SurfacePoint, Viewpoint};
 use sparrow_math::{Real, Transform, Vec3};
 use sparrow_spectra::{Spectrum, Wavelengths};
 
 use crate::spectrum::SceneSpectrum;
+
+use portal::Portal;
 
 pub use build::LightBuild;
 pub use environment::{Environment, EnvironmentColour};
@@ -74,6 +83,8 @@ pub enum Light {
         scale: f32,
         /// Light sampling leaves it to the BSDF: the sharpened density of MIS compensation is zero everywhere.
         left_to_bsdf: bool,
+        /// The opening through which it is sampled.
+        portal: Option<Box<Portal>>,
     },
     /// An image of radiance from all around.
     Environment(Box<Environment>),
@@ -112,6 +123,14 @@ pub struct LitPoint {
     pub p: Vec3<f32>,
     /// Shading normal.
     pub n: Vec3<f32>,
+}
+
+impl LitPoint {
+    /// From where lights are sampled.
+    #[inline]
+    fn viewpoint(&self) -> Viewpoint {
+        Viewpoint { p: self.p, n: Some(self.n) }
+    }
 }
 
 /// All lights of a scene.
@@ -177,7 +196,7 @@ impl Lights {
     ) -> Option<LightSample> {
         match &self.lights[light as usize] {
             Light::Area { shape, prim, emission, scale, two_sided } => {
-                let s = geometry.sample_from(*shape, *prim, at.p, u)?;
+                let s = geometry.sample_from(*shape, *prim, at.viewpoint(), u)?;
                 if !(s.pdf > 0.0) || (!two_sided && s.n.dot(s.wi) >= 0.0) {
                     return None;
                 }
@@ -205,20 +224,24 @@ impl Lights {
                 delta: true,
                 target: Target::Infinity,
             }),
-            Light::Uniform { emission, scale, left_to_bsdf } => {
+            Light::Uniform { emission, scale, left_to_bsdf, portal } => {
                 if *left_to_bsdf {
                     return None;
                 }
+                let (wi, pdf) = match portal {
+                    Some(portal) => portal.sample(at.p, u)?,
+                    None => (sparrow_math::warp::uniform_sphere(u), UNIFORM_SPHERE),
+                };
                 Some(LightSample {
-                    wi: sparrow_math::warp::uniform_sphere(u),
+                    wi,
                     radiance: self.emissions[*emission as usize].at(w) * *scale,
-                    pdf: 0.25 * core::f32::consts::FRAC_1_PI,
+                    pdf,
                     delta: false,
                     target: Target::Infinity,
                 })
             }
             Light::Environment(e) => {
-                let (wi, pdf) = e.sample(u)?;
+                let (wi, pdf) = e.sample(at.p, u)?;
                 Some(LightSample {
                     wi,
                     radiance: e.radiance(wi, w),
@@ -270,31 +293,36 @@ impl Lights {
 
     /// Density with which [`sample`](Self::sample) finds the surface `point` of that light from `at`, in 1/sr.
     #[inline]
-    pub fn pdf_of_point(
-        &self,
-        geometry: &Geometry,
-        at: &LitPoint,
-        wi: Vec3<f32>,
-        point: &SurfacePoint,
-    ) -> f32 {
-        geometry.pdf_from(point.shape, point.prim, at.p, wi, point.p, point.ng)
+    pub fn pdf_of_point(&self, geometry: &Geometry, at: &LitPoint, point: &SurfacePoint) -> f32 {
+        geometry.pdf_from(point.shape, point.prim, at.viewpoint(), point.p, point.ng)
     }
 
-    /// Radiance of an infinite light from direction `wi`, and the density with which it is sampled, in 1/sr.
+    /// Radiance of an infinite light from direction `wi`.
     #[inline]
-    pub fn escaped(&self, light: u32, wi: Vec3<f32>, w: &Wavelengths) -> (Spectrum<f32>, f32) {
+    pub fn escaped(&self, light: u32, wi: Vec3<f32>, w: &Wavelengths) -> Spectrum<f32> {
         match &self.lights[light as usize] {
-            Light::Uniform { emission, scale, left_to_bsdf } => {
-                let pdf = if *left_to_bsdf { 0.0 } else { 0.25 * core::f32::consts::FRAC_1_PI };
-                (self.emissions[*emission as usize].at(w) * *scale, pdf)
-            }
-            Light::Environment(e) => (e.radiance(wi, w), e.pdf(wi)),
+            Light::Uniform { emission, scale, .. } => self.emissions[*emission as usize].at(w) * *scale,
+            Light::Environment(e) => e.radiance(wi, w),
             Light::Area { .. } | Light::Point { .. } | Light::Spot { .. } | Light::Distant { .. } => {
-                (Spectrum::ZERO, 0.0)
+                Spectrum::ZERO
             }
         }
     }
+
+    /// Density with which [`sample`](Self::sample) finds direction `wi` of an infinite light from `at`, in 1/sr.
+    #[inline]
+    pub fn pdf_of_escape(&self, light: u32, at: &LitPoint, wi: Vec3<f32>) -> f32 {
+        match &self.lights[light as usize] {
+            Light::Uniform { left_to_bsdf: true, .. } => 0.0,
+            Light::Uniform { portal, .. } => portal.as_ref().map_or(UNIFORM_SPHERE, |p| p.pdf(at.p, wi)),
+            Light::Environment(e) => e.pdf(at.p, wi),
+            Light::Area { .. } | Light::Point { .. } | Light::Spot { .. } | Light::Distant { .. } => 0.0,
+        }
+    }
 }
+
+/// Density of directions drawn over the whole sphere, in 1/sr.
+const UNIFORM_SPHERE: f32 = 0.25 * core::f32::consts::FRAC_1_PI;
 
 /// Hermite's step from 0 at `a` to 1 at `b`.
 fn smooth_step(a: f32, b: f32, x: f32) -> f32 {

@@ -1,114 +1,58 @@
 //! Choosing one of many lights.
 
-use sparrow_math::{Aabb, Vec3};
+use sparrow_math::{InLanes, Real, in_lanes};
 
 use super::LitPoint;
+use super::bounds::LightBounds;
+use super::eight::{EIGHT, Eight, pick};
+use super::tree::LightTree;
 use crate::distribution::Discrete;
 
 /// Most lights for which every choice weighs each of them.
 pub(super) const WEIGH_ALL: usize = 64;
-
-/// What is known of a light before it is sampled.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct LightBounds {
-    /// Radiant power, up to a factor common to all lights.
-    pub(super) power: f32,
-    /// Where it is; empty for infinite lights.
-    pub(super) bounds: Aabb,
-    /// Direction of emission, for lights that emit on one side of a plane.
-    pub(super) facing: Option<Vec3<f32>>,
-}
-
-/// A bounded light as the choice looks at it: the ball around it, and where it shines.
-#[derive(Clone, Copy, Debug)]
-struct Emitter {
-    light: u32,
-    power: f32,
-    center: Vec3<f32>,
-    radius: f32,
-    facing: Option<Vec3<f32>>,
-}
-
-impl Emitter {
-    fn new(light: u32, b: &LightBounds) -> Emitter {
-        Emitter {
-            light,
-            power: b.power,
-            center: b.bounds.center(),
-            radius: b.bounds.radius(),
-            facing: b.facing,
-        }
-    }
-
-    /// About how much light it sends to a point. [ContyKulla2018, eq. 3], for a leaf with a flat emitter
-    ///
-    /// Not zero where light may arrive: a bound, not an estimate.
-    #[inline]
-    fn importance(&self, at: &LitPoint) -> f32 {
-        let to = self.center - at.p;
-        let (d2, r2) = (to.length2(), self.radius * self.radius);
-        // Within the ball nothing is known of distance and angle.
-        if d2 <= r2 {
-            return self.power / r2.max(1e-30);
-        }
-        let inv = 1.0 / d2.sqrt();
-        let d = to * inv;
-        let sin_b = self.radius * inv;
-        let cos_b = (1.0 - sin_b * sin_b).max(0.0).sqrt();
-        // The largest cosine towards any point of the ball.
-        let widen = |cos: f32| {
-            if cos >= cos_b {
-                1.0
-            } else {
-                (cos * cos_b + (1.0 - cos * cos).max(0.0).sqrt() * sin_b).max(0.0)
-            }
-        };
-        let emits = self.facing.map_or(1.0, |n| widen(-n.dot(d)));
-        let receives = widen(at.n.dot(d).abs());
-        self.power * emits * receives * (inv * inv)
-    }
-}
 
 /// A way to choose a light.
 #[derive(Debug)]
 pub enum LightSelection {
     /// By a fixed distribution: uniform, or in proportion to power.
     Fixed(Discrete),
-    /// Each bounded light by its importance at the point, infinite lights with equal shares.
-    ///
-    /// The flat form of a light hierarchy, exact and quick for few lights.
-    Weighed(WeighedLights),
+    /// By about how much light each sends to the point.
+    ByPlace(ByPlace),
     /// There is nothing to choose.
     Empty,
 }
 
-/// Lights for [`LightSelection::Weighed`].
+/// Bounded lights chosen by place; infinite lights with equal shares, beside which all bounded ones together count as one.
 #[derive(Debug)]
-pub struct WeighedLights {
-    bounded: Vec<Emitter>,
+pub struct ByPlace {
+    bounded: Bounded,
     infinite: Vec<u32>,
-    /// Where each light stands among the bounded ones.
-    place: Vec<u32>,
+}
+
+/// How bounded lights are weighed.
+#[derive(Debug)]
+enum Bounded {
+    None,
+    One(u32),
+    Few(FewLights),
+    Many(LightTree),
 }
 
 impl LightSelection {
-    pub(super) fn weighed(bounds: &[LightBounds], usable: &[bool]) -> LightSelection {
-        let (mut bounded, mut infinite) = (Vec::new(), Vec::new());
-        let mut place = vec![u32::MAX; bounds.len()];
-        for (i, b) in bounds.iter().enumerate().filter(|(i, b)| usable[*i] && b.power > 0.0) {
-            if b.bounds.is_empty() {
-                infinite.push(i as u32);
-            } else {
-                place[i] = bounded.len() as u32;
-                bounded.push(Emitter::new(i as u32, b));
-            }
-        }
-        // Choices keep their weights on the stack.
-        bounded.truncate(WEIGH_ALL);
+    pub(super) fn by_place(bounds: &[LightBounds], usable: &[bool]) -> LightSelection {
+        let lights = bounds.iter().enumerate().filter(|(i, b)| usable[*i] && b.power > 0.0);
+        let (infinite, bounded): (Vec<_>, Vec<_>) =
+            lights.map(|(i, b)| (i as u32, *b)).partition(|(_, b)| b.bounds.is_empty());
         if infinite.is_empty() && bounded.is_empty() {
             return LightSelection::Empty;
         }
-        LightSelection::Weighed(WeighedLights { bounded, infinite, place })
+        let bounded = match &bounded[..] {
+            [] => Bounded::None,
+            [(light, _)] => Bounded::One(*light),
+            few if few.len() <= WEIGH_ALL => Bounded::Few(FewLights::new(few)),
+            many => Bounded::Many(LightTree::new(many, bounds.len())),
+        };
+        LightSelection::ByPlace(ByPlace { bounded, infinite: infinite.into_iter().map(|l| l.0).collect() })
     }
 
     pub(super) fn fixed(weights: &[f32]) -> LightSelection {
@@ -126,7 +70,7 @@ impl LightSelection {
                 let c = d.sample(u);
                 (c.probability > 0.0).then_some((c.index as u32, c.probability))
             }
-            LightSelection::Weighed(w) => w.choose(at, u),
+            LightSelection::ByPlace(w) => w.choose(at, u),
             LightSelection::Empty => None,
         }
     }
@@ -136,18 +80,19 @@ impl LightSelection {
     pub fn probability(&self, at: &LitPoint, light: u32) -> f32 {
         match self {
             LightSelection::Fixed(d) => d.probability(light as usize),
-            LightSelection::Weighed(w) => w.probability(at, light),
+            LightSelection::ByPlace(w) => w.probability(at, light),
             LightSelection::Empty => 0.0,
         }
     }
 }
 
-impl WeighedLights {
-    /// Probability that any one infinite light is chosen: all bounded lights together count as one.
+impl ByPlace {
+    /// Probability that any one infinite light is chosen.
     fn infinite_share(&self) -> f32 {
-        1.0 / (self.infinite.len() + usize::from(!self.bounded.is_empty())) as f32
+        1.0 / (self.infinite.len() + usize::from(!matches!(self.bounded, Bounded::None))) as f32
     }
 
+    #[inline]
     fn choose(&self, at: &LitPoint, u: f32) -> Option<(u32, f32)> {
         let share = self.infinite_share();
         let n = self.infinite.len() as f32;
@@ -156,60 +101,101 @@ impl WeighedLights {
             return Some((self.infinite[i], share));
         }
         let rest = 1.0 - n * share;
-        if let [only] = &self.bounded[..] {
-            return Some((only.light, rest));
+        let u = f64::from((u - n * share) / rest);
+        let (light, probability) = match &self.bounded {
+            Bounded::None => return None,
+            Bounded::One(light) => (*light, 1.0),
+            Bounded::Few(few) => few.choose(at, u)?,
+            Bounded::Many(tree) => tree.choose(at, u)?,
+        };
+        Some((light, rest * probability))
+    }
+
+    #[inline]
+    fn probability(&self, at: &LitPoint, light: u32) -> f32 {
+        let share = self.infinite_share();
+        if self.infinite.contains(&light) {
+            return share;
         }
+        let among = match &self.bounded {
+            Bounded::None => 0.0,
+            Bounded::One(only) => f32::from(u8::from(*only == light)),
+            Bounded::Few(few) => few.probability(at, light),
+            Bounded::Many(tree) => tree.probability(at, light),
+        };
+        (1.0 - self.infinite.len() as f32 * share) * among
+    }
+}
+
+/// Few lights, each weighed for every point: exact and quick.
+#[derive(Debug)]
+struct FewLights {
+    lights: Vec<u32>,
+    bounds: Vec<Eight>,
+}
+
+/// Weights of few lights.
+type Weights = [f32; WEIGH_ALL];
+
+impl FewLights {
+    /// At most [`WEIGH_ALL`] lights.
+    fn new(lights: &[(u32, LightBounds)]) -> FewLights {
+        let mut bounds = vec![Eight::default(); lights.len().div_ceil(EIGHT)];
+        for (i, (_, b)) in lights.iter().enumerate() {
+            bounds[i / EIGHT].set(i % EIGHT, b);
+        }
+        FewLights { lights: lights.iter().map(|l| l.0).collect(), bounds }
+    }
+
+    /// Their weights, and the sum.
+    #[inline]
+    fn weigh(&self, at: &LitPoint) -> (Weights, f32) {
         let mut weights = [0.0; WEIGH_ALL];
-        let mut total = 0.0;
-        for (w, e) in weights.iter_mut().zip(&self.bounded) {
-            *w = e.importance(at);
-            total += *w;
-        }
-        let mut left = (u - n * share) / rest * total;
-        let mut last = None;
-        for (&w, e) in weights.iter().zip(&self.bounded) {
-            if w > 0.0 {
-                last = Some((e.light, rest * w / total));
-                if left < w {
-                    break;
-                }
-                left -= w;
-            }
-        }
-        last
+        in_lanes(Weigh(&self.bounds, at, &mut weights));
+        let total = weights[..self.lights.len()].iter().sum();
+        (weights, total)
+    }
+
+    fn choose(&self, at: &LitPoint, u: f64) -> Option<(u32, f32)> {
+        let (weights, total) = self.weigh(at);
+        let (i, share, _) = pick(&weights[..self.lights.len()], total, u)?;
+        Some((self.lights[i], share))
     }
 
     fn probability(&self, at: &LitPoint, light: u32) -> f32 {
-        let share = self.infinite_share();
-        let rest = 1.0 - self.infinite.len() as f32 * share;
-        let Some(own) = self.place.get(light as usize).and_then(|&p| self.bounded.get(p as usize)) else {
-            return if self.infinite.contains(&light) { share } else { 0.0 };
-        };
-        if self.bounded.len() == 1 {
-            return rest;
+        let Some(own) = self.lights.iter().position(|&l| l == light) else { return 0.0 };
+        let (weights, total) = self.weigh(at);
+        if weights[own] > 0.0 { weights[own] / total } else { 0.0 }
+    }
+}
+
+/// Writes the importances of all of them.
+struct Weigh<'a>(&'a [Eight], &'a LitPoint, &'a mut Weights);
+
+impl InLanes for Weigh<'_> {
+    type Output = ();
+    #[inline(always)]
+    fn run<R: Real>(self) {
+        for (eight, out) in self.0.iter().zip(self.2.chunks_exact_mut(EIGHT)) {
+            out.copy_from_slice(&eight.importances::<R>(self.1));
         }
-        let own = own.importance(at);
-        if !(own > 0.0) {
-            return 0.0;
-        }
-        let total: f32 = self.bounded.iter().map(|e| e.importance(at)).sum();
-        rest * own / total
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use sparrow_math::vec3;
+    use crate::light::bounds::Cone;
+    use sparrow_math::{Aabb, vec3};
 
     fn lights() -> LightSelection {
         let at = |x: f32, power: f32, r: f32| LightBounds {
             power,
             bounds: Aabb::EMPTY.grow(vec3(x - r, -r, 3.0 - r)).grow(vec3(x + r, r, 3.0 + r)),
-            facing: (x > 0.0).then_some(vec3(0.0, 0.0, -1.0)),
+            cone: if x > 0.0 { Cone::facing(vec3(0.0, 0.0, -1.0), false) } else { Cone::ALL },
         };
-        let sky = LightBounds { power: 5.0, bounds: Aabb::EMPTY, facing: None };
-        LightSelection::weighed(&[at(-2.0, 1.0, 0.1), sky, at(1.0, 4.0, 0.5), at(9.0, 0.0, 1.0)], &[true; 4])
+        let sky = LightBounds { power: 5.0, bounds: Aabb::EMPTY, cone: Cone::ALL };
+        LightSelection::by_place(&[at(-2.0, 1.0, 0.1), sky, at(1.0, 4.0, 0.5), at(9.0, 0.0, 1.0)], &[true; 4])
     }
 
     #[test]

@@ -26,7 +26,7 @@ pub(crate) struct Sample {
 /// Looks at the samples of one tile, on one thread.
 pub(crate) trait TileObserver {
     /// What a path is to write down.
-    type Record: Record + Default;
+    type Record: Record + Default + Send;
     /// Takes a sample; `rgb` turns a part of its radiance into what the film would show.
     ///
     /// Returns what the film gets for it, in linear RGB: the sample itself, or an estimate of the same mean.

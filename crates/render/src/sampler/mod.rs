@@ -18,11 +18,20 @@
 //! *Padded* means that every request takes a fresh (0, 2)-sequence, shuffled against the others
 //! [Burley2020]; what lies beyond the table of a global sequence is padded too.
 //!
+//! A pixel takes up to 2^32 samples, and each of them 2^32 dimensions, none of which repeats another. A padded kind asked for more samples
+//! than it was built for scrambles them anew, and so does the global Sobol sequence beyond its 2^52 points, which an image of side 2^m spends
+//! after 2^(52 - 2 m) samples: 2^32 for 1024 pixels, 2^28 for 4096.
+//!
+//! An Owen-scrambled (0, 2)-sequence has the strata of a progressive multi-jittered (0, 2) one at every power of two, and may be drawn as one
+//! [Helmer2021, abstract]. So `pmj02bn` differs from `zsobol` only in what spreads the error over the image, and in that pbrt's tables keep the
+//! points of one pixel apart, which is not done here.
+//!
 //! Sample counts need not be powers of two. All samples of a power of two, and within them every
 //! power of two above 16 that is counted from a multiple of itself, are a (0, m, 2)-net in every pair of a
 //! padded kind; other counts are as well stratified as a prefix of the sequence can be. Two padded
 //! pairs are shuffled against each other in random blocks of 16 samples (fewer where fewer divide the count).
 
+mod column;
 mod config;
 mod halton;
 mod hash;

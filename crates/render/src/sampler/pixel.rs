@@ -8,10 +8,10 @@ use super::sobol::{self, SobolTables};
 use super::{stratified, zorder};
 
 /// The dimension number under which [`PixelSampler::get_pixel_2d`] draws.
-const PIXEL_DIMENSION: u32 = u32::MAX;
+pub(super) const PIXEL_DIMENSION: u32 = u32::MAX;
 
 /// Path dimensions of the global sequences follow the two of the image plane.
-const PLANE: u32 = 2;
+pub(super) const PLANE: u32 = 2;
 
 /// Logarithm of the block of samples that padded dimensions permute at random.
 ///
@@ -25,8 +25,20 @@ fn log2_block(samples_per_pixel: u32) -> u32 {
     }
 }
 
+/// What a dimension adds to a pixel sample's key.
+#[inline(always)]
+pub(super) fn key_step(dimension: u32) -> u64 {
+    u64::from(dimension).wrapping_add(1).wrapping_mul(GOLDEN)
+}
+
+/// The seed that scrambles a dimension of the global Sobol sequence on its `turn`-th way through.
+#[inline(always)]
+pub(super) fn sobol_seed(seed: u64, dimension: u32, turn: u32) -> u32 {
+    join(seed, u64::from(dimension) | (u64::from(turn) << 32)) as u32
+}
+
 /// Tables of the kinds, built once.
-enum Plan {
+pub(super) enum Plan {
     Independent,
     Stratified { grid: [u32; 2], jitter: bool },
     Padded,
@@ -37,12 +49,12 @@ enum Plan {
 
 /// A point set over image, samples and dimensions; immutable, shared by all threads.
 pub struct Sampler {
-    config: SamplerConfig,
-    plan: Plan,
+    pub(super) config: SamplerConfig,
+    pub(super) plan: Plan,
     samples_per_pixel: u32,
-    blocks: Blocks,
+    pub(super) blocks: Blocks,
     /// Hash of the configuration's seed: nearby seeds have unrelated keys.
-    seed: u64,
+    pub(super) seed: u64,
 }
 
 impl Sampler {
@@ -149,13 +161,19 @@ impl Sampler {
 pub struct PixelSampler<'a> {
     sampler: &'a Sampler,
     /// Hash of the seed and whatever the kind scrambles by: pixel, sample, place on the curve.
-    key: u64,
+    pub(super) key: u64,
     /// Index of the point; bit-reversed for the padded kinds.
-    index: u64,
+    pub(super) index: u64,
     dimension: u32,
 }
 
-impl PixelSampler<'_> {
+impl<'a> PixelSampler<'a> {
+    /// The same pixel sample, at that dimension.
+    #[inline]
+    pub fn at(self, dimension: u32) -> PixelSampler<'a> {
+        PixelSampler { dimension, ..self }
+    }
+
     /// The next dimension to be drawn.
     #[inline]
     pub fn dimension(&self) -> u32 {
@@ -255,13 +273,13 @@ impl PixelSampler<'_> {
     /// Key of a dimension. A bijection of `key + dimension * odd`, so no two dimensions share one.
     #[inline(always)]
     fn key_of(&self, dimension: u32) -> u64 {
-        mix(self.key.wrapping_add(u64::from(dimension).wrapping_add(1).wrapping_mul(GOLDEN)))
+        mix(self.key.wrapping_add(key_step(dimension)))
     }
 
     #[inline]
     fn sobol_value(&self, tables: &SobolTables, d: u32) -> f32 {
         let v = tables.value(self.index, d + PLANE);
-        let seed = join(self.sampler.seed, u64::from(d + PLANE)) as u32;
+        let seed = sobol_seed(self.sampler.seed, d + PLANE, sobol::turn(self.index));
         to_unit(randomize(v.reverse_bits(), seed, self.sampler.config.randomize).reverse_bits())
     }
 
@@ -271,7 +289,7 @@ impl PixelSampler<'_> {
     /// here, so its pixel positions do not follow the seed.
     #[inline]
     fn below_pixel(&self, v: u32, axis: u32, log2_side: u32, how: Randomize) -> f32 {
-        let seed = join(self.sampler.seed, u64::from(axis)) as u32;
+        let seed = sobol_seed(self.sampler.seed, axis, sobol::turn(self.index));
         to_unit(randomize(v.reverse_bits(), seed, how).reverse_bits() << log2_side)
     }
 

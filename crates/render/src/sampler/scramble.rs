@@ -75,7 +75,7 @@ impl Blocks {
 
     /// Moves an index within its block, as `key` and the block say.
     #[inline(always)]
-    fn permute(&self, index: u32, key: u32) -> u32 {
+    pub(crate) fn permute(&self, index: u32, key: u32) -> u32 {
         let block = (index | 15).wrapping_mul(0x9e37_79b9) ^ key;
         let table = self.0[(block >> 24) as usize];
         (index & !15) | ((table >> (4 * (index & 15))) & 15) as u32

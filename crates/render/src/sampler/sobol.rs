@@ -6,7 +6,7 @@ use super::joe_kuo::JOE_KUO;
 pub(crate) const N_DIMENSIONS: u32 = 128;
 
 /// Index bits the matrices cover.
-const N_COLUMNS: usize = 52;
+pub(crate) const N_COLUMNS: usize = 52;
 /// A column's worth of index bits is looked up four at a time.
 const N_NIBBLES: usize = N_COLUMNS / 4;
 
@@ -61,6 +61,13 @@ fn nibble_table(d: usize) -> Matrix {
     m
 }
 
+/// How often an index has passed the end of the sequence: wide images leave fewer than 2^32 points to a pixel, and what comes
+/// after them is scrambled anew.
+#[inline(always)]
+pub(crate) fn turn(index: u64) -> u32 {
+    (index >> N_COLUMNS) as u32
+}
+
 impl SobolTables {
     /// Tables for an image of this size.
     pub(crate) fn new(resolution: [u32; 2]) -> SobolTables {
@@ -86,6 +93,13 @@ impl SobolTables {
             }
         }
         v
+    }
+
+    /// What bits `j` to `j + 3` of an index add to [`value`](Self::value); `j` is a multiple of 4 below [`N_COLUMNS`].
+    #[inline(always)]
+    pub(crate) fn columns(&self, dimension: u32, j: usize) -> [u32; 4] {
+        let row = &self.matrices[dimension as usize][j / 4];
+        [row[1], row[2], row[4], row[8]]
     }
 
     /// Bits of the pixel, x then y, that the point with this index falls into.

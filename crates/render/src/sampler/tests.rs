@@ -2,7 +2,7 @@
 
 use sparrow_math::{ONE_MINUS_EPSILON, Real};
 
-use super::{Randomize, Sampler, SamplerConfig, SamplerKind};
+use super::{PixelSampler, Randomize, Sampler, SamplerConfig, SamplerKind};
 
 const KINDS: [SamplerKind; 7] = [
     SamplerKind::Independent,
@@ -332,4 +332,55 @@ fn notes_say_what_differs() {
         sampler(SamplerKind::Stratified { x: 3, y: 3, jitter: true }, 16, 0).notes()[0].contains("9 samples")
     );
     assert_eq!(sampler(SamplerKind::ZSobol, 48, 0).samples_per_pixel(), 48);
+}
+
+#[test]
+fn columns_equal_single_numbers() {
+    for kind in KINDS {
+        for randomize in [Randomize::None, Randomize::PermuteDigits, Randomize::FastOwen, Randomize::Owen] {
+            let config =
+                SamplerConfig { kind, randomize, samples_per_pixel: 64, seed: 3, resolution: [640, 400] };
+            let s = Sampler::new(&config);
+            // 150 paths fill two chunks and a part; the last sample sets high bits of a global index.
+            let start =
+                |i: u32| s.start([i * 7 % 640, i * 13 % 400], if i == 149 { u32::MAX } else { i % 64 });
+            let paths: Vec<PixelSampler<'_>> = (0..150).map(start).collect();
+            for d in [0, 5, 124, 125, 126, 127, 1_000_000] {
+                let (mut a, mut x, mut y) = ([0.0; 150], [0.0; 150], [0.0; 150]);
+                s.fill_1d(&paths, d, &mut a);
+                s.fill_2d(&paths, d, [&mut x, &mut y]);
+                for (i, p) in paths.iter().enumerate() {
+                    assert_eq!(a[i], p.at(d).get_1d(), "{kind:?} {randomize:?}: {i} at {d}");
+                    assert_eq!([x[i], y[i]], p.at(d).get_2d(), "{kind:?} {randomize:?}: pair {i} at {d}");
+                }
+                s.fill_pixel_2d(&paths, [&mut x, &mut y]);
+                for (i, p) in paths.iter().enumerate() {
+                    assert_eq!([x[i], y[i]], p.at(d).get_pixel_2d(), "{kind:?} {randomize:?}: pixel {i}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn the_sobol_sequence_goes_on_beyond_its_last_column() {
+    let config = SamplerConfig {
+        kind: SamplerKind::Sobol,
+        randomize: Randomize::FastOwen,
+        samples_per_pixel: 64,
+        seed: 3,
+        resolution: [65_536, 10],
+    };
+    let s = Sampler::new(&config);
+    // 2^52 points, 2^32 pixels: after 2^20 samples the columns begin again.
+    let numbers = |first: u32| {
+        let start = |i| s.start([30_000, 7], first + i);
+        let paths: Vec<PixelSampler<'_>> = (0..64).map(start).collect();
+        let (mut x, mut y) = ([0.0; 64], [0.0; 64]);
+        s.fill_2d(&paths, 8, [&mut x, &mut y]);
+        assert_eq!([x[9], y[9]], paths[9].at(8).get_2d());
+        (x, y, paths[5].at(0).get_pixel_2d())
+    };
+    let (a, b) = (numbers(0), numbers(1 << 20));
+    assert!(a.2 != b.2 && a.0.iter().zip(&b.0).all(|(a, b)| a != b), "samples repeat");
 }

@@ -19,7 +19,7 @@ use crate::colour::Carrier;
 use crate::spectrum::SceneSpectrum;
 
 /// Where a texture is evaluated.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct TextureContext {
     /// Point, in world space.
     pub(crate) p: Vec3<f32>,

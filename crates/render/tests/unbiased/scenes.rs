@@ -72,10 +72,33 @@ fn under_square() -> f64 {
     5.0 * PI * 4.0 * (2.0 * a / s * Real::atan2(a / s, 1.0)) / (2.0 * PI)
 }
 
+/// More lamps than are weighed one by one: a spiral of triangles that face all ways, and a sky.
+///
+/// No point and no spot: BSDF sampling finds neither, and `one-sample` gives them too little.
+fn many_lights() -> String {
+    let (mut points, mut indices) = (String::new(), String::new());
+    for i in 0..90 {
+        let t = f64::from(i);
+        let (sin, cos) = Real::sin_cos(0.7 * t);
+        let r = 0.9 + 0.02 * t;
+        let (x, y, z) = (r * cos, r * sin, 0.15 + 0.025 * t);
+        let (a, b) = (0.2 + 0.1 * (0.618 * t).fract(), 0.15 * Real::sin(2.3 * t));
+        points += &format!("{x} {y} {z} {} {} {} {} {} {} ", x + a, y + b, z, x - b, y + a, z + 2.0 * b);
+        indices += &format!("{} {} {} ", 3 * i, 3 * i + 1, 3 * i + 2);
+    }
+    format!(
+        r#"LightSource "infinite" "rgb L" [ 0.1 0.12 0.15 ]
+    AttributeBegin AreaLightSource "diffuse" "rgb L" [ 3 2.5 2 ]
+    Shape "trianglemesh" "point3 P" [ {points} ] "integer indices" [ {indices} ] AttributeEnd"#
+    )
+}
+
 /// All of them; `map` is a picture of an environment.
 pub(crate) fn all(map: &std::path::Path) -> Vec<Scene> {
     let scene = |name, text, truth| Scene { name, text, truth };
     let map = format!(r#"Rotate 40 1 2 3 LightSource "infinite" "string filename" "{}""#, map.display());
+    // Light that comes by another way than the portal is left to the BSDF.
+    let through_portal = format!(r#"{map} "point3 portal" [ -2 -2 3  -2 2 3  2 2 3  2 -2 3 ]"#);
     let copper = r#""conductor" "float uroughness" 0.4 "float vroughness" 0.12"#;
     let glass = r#""dielectric" "float eta" 1.5 "float roughness" 0.25"#;
     let hair = r#""hair" "rgb sigma_a" [ 0.1 0.2 0.5 ] "float beta_m" 0.4 "float beta_n" 0.5"#;
@@ -129,8 +152,14 @@ pub(crate) fn all(map: &std::path::Path) -> Vec<Scene> {
             room(2, r#""diffuse" "rgb reflectance" [ 0.7 0.7 0.7 ]"#, SPHERE, &map),
             Truth::Long,
         ),
+        scene(
+            "portal",
+            room(2, r#""diffuse" "rgb reflectance" [ 0.7 0.7 0.7 ]"#, SPHERE, &through_portal),
+            Truth::Long,
+        ),
         scene("anisotropic metal", room(3, copper, SPHERE, THREE_LIGHTS), Truth::Long),
         scene("glass", room(5, glass, SPHERE, THREE_LIGHTS), Truth::Long),
+        scene("many lights", room(2, copper, SPHERE, &many_lights()), Truth::Long),
         scene("hair", room(3, hair, strands, FAR_LIGHTS), Truth::Long),
     ]
 }

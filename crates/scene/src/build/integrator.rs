@@ -87,9 +87,11 @@ impl Builder {
         };
         let Some(statement) = self.setup.integrator.take() else { return desc };
         let p = &statement.params;
-        if statement.entity.name == "directlighting" {
-            desc.name = IntegratorName::DirectLighting;
-        }
+        desc.name = match statement.entity.name {
+            "directlighting" => IntegratorName::DirectLighting,
+            "reference" => IntegratorName::Reference,
+            _ => IntegratorName::Path,
+        };
         match p.int("maxdepth") {
             Some(depth @ 0..) => desc.max_depth = depth as u32,
             Some(depth) => {

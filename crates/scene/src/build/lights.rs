@@ -38,7 +38,28 @@ impl Builder {
         };
         let Some(kind) = kind else { return };
         let to_world = self.standing("a light", params.at);
-        self.lights.push(LightDesc { kind, to_world, at: params.at });
+        let portal = self.portal(&params);
+        self.lights.push(LightDesc { kind, to_world, portal, at: params.at });
+    }
+
+    /// The corners of a portal; an error where they are no rectangle.
+    fn portal(&mut self, params: &Params) -> Option<[Vec3<f64>; 4]> {
+        let points: Vec<Vec3<f64>> =
+            params.triples("portal").iter().map(|p| Vec3::from(*p).to_f64()).collect();
+        if points.is_empty() {
+            return None;
+        }
+        let rectangle = <[Vec3<f64>; 4]>::try_from(points).ok().filter(|[p0, p1, p2, p3]| {
+            let (e, f) = (*p1 - *p0, *p3 - *p0);
+            let size = e.length().min(f.length());
+            let closed = (*p0 + *p2 - *p1 - *p3).length() <= 1e-3 * size;
+            size > 0.0 && closed && e.dot(f).abs() <= 1e-3 * e.length() * f.length()
+        });
+        if rectangle.is_none() {
+            let message = "a portal is a rectangle: give its four corners in order, in world space";
+            self.report.error(params.place("portal"), message);
+        }
+        rectangle
     }
 
     /// The spectrum and scale of a light; its colour space's illuminant where no spectrum is given.

@@ -16,6 +16,8 @@ pub struct LightDesc {
     pub kind: LightKind,
     /// Light to world.
     pub to_world: Transform,
+    /// Corners of the rectangle, in world space, through which an infinite light comes in; it serves sampling alone.
+    pub portal: Option<[Vec3<f64>; 4]>,
     /// Where the statement stands.
     pub at: Span,
 }

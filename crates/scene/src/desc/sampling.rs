@@ -56,7 +56,7 @@ pub struct SamplerDesc {
 /// An integrator.
 #[derive(Clone, Debug, PartialEq)]
 pub struct IntegratorDesc {
-    /// `path` or `directlighting`, after aliases are resolved.
+    /// `path`, `reference` or `directlighting`, after aliases are resolved.
     pub name: IntegratorName,
     /// Most scattering events of a path.
     pub max_depth: u32,
@@ -75,6 +75,8 @@ pub struct IntegratorDesc {
 pub enum IntegratorName {
     /// The path tracer.
     Path,
+    /// The path tracer, one path at a time: slower, and the same picture to the bit.
+    Reference,
     /// Paths with one bounce of light, and specular chains.
     DirectLighting,
 }

@@ -43,7 +43,7 @@ pub(super) static LIGHTS: [Entity; 6] = [
                 row("L", Kind::Spectrum),
                 row("filename", Kind::Text),
                 row("illuminance", Kind::Float),
-                not_yet("portal", Kind::Point3List),
+                row("portal", Kind::Point3List),
             ],
         ],
     ),

@@ -96,10 +96,12 @@ const STRATEGIES: &[Row] = &[row("samplelights", Kind::Bool), row("samplebsdf", 
 const MIS: &[Row] = &[row("mis", Kind::Text), row("miscompensation", Kind::Bool)];
 const SAME_LIGHT: &str = "\"path\" is used, which finds the same light with other noise";
 
-pub(super) static INTEGRATORS: [Entity; 12] = [
+pub(super) static INTEGRATORS: [Entity; 13] = [
     Entity::new("path", &[DEPTH, LIGHTS, STRATEGIES, MIS]),
     Entity::new("volpath", &[DEPTH, LIGHTS, STRATEGIES, MIS]),
     Entity::new("simplepath", &[DEPTH, LIGHTS, STRATEGIES, MIS]),
+    // Sparrow's own: paths one at a time.
+    Entity::new("reference", &[DEPTH, LIGHTS, STRATEGIES, MIS]),
     // Sparrow's own: one bounce of light and specular chains.
     Entity::new("directlighting", &[DEPTH, LIGHTS, STRATEGIES, MIS]),
     Entity::new("simplevolpath", &[DEPTH]).instead("\"path\" is used, which also scatters at surfaces"),

@@ -1,0 +1,132 @@
+//! New paths of a block: [`Fresh`].
+
+use sparrow_geometry::Ray;
+use sparrow_math::{InLanes, Real, in_lanes};
+use sparrow_spectra::Wavelengths;
+
+use super::column::{BATCH, Column, load, padded, store_vector, vector};
+use crate::camera::Camera;
+use crate::integrator::start::{CameraNumbers, CameraSample, FilmPlace, film_point};
+use crate::plan::RenderPlan;
+use crate::sampler::{PixelSampler, Sampler};
+use crate::scene::Scene;
+
+/// Camera samples that are drawn together.
+#[derive(Default)]
+pub(super) struct Fresh<'a> {
+    pixels: Vec<[u32; 2]>,
+    samplers: Vec<PixelSampler<'a>>,
+    lambda: Vec<Wavelengths>,
+    columns: Box<Columns>,
+}
+
+/// Uniform numbers, and the rays made of them.
+#[derive(Default)]
+struct Columns {
+    wavelength: Column,
+    time: Column,
+    pixel: [Column; 2],
+    lens: [Column; 2],
+    /// Column and row in the full picture.
+    place: [Column; 2],
+    weight: Column,
+    o: [Column; 3],
+    d: [Column; 3],
+}
+
+impl<'a> Fresh<'a> {
+    /// Draws `samples`, at most a batch of them; false where there are none.
+    pub(super) fn draw(
+        &mut self,
+        scene: &Scene,
+        sampler: &'a Sampler,
+        plan: &RenderPlan,
+        samples: &mut impl Iterator<Item = ([u32; 2], u32)>,
+    ) -> bool {
+        self.pixels.clear();
+        self.samplers.clear();
+        self.lambda.clear();
+        for (pixel, sample) in samples.take(BATCH) {
+            let place = plan.in_full_picture(pixel);
+            for (column, x) in self.columns.place.iter_mut().zip(place) {
+                column[self.pixels.len()] = x as f32;
+            }
+            self.pixels.push(pixel);
+            self.samplers.push(sampler.start(place, sample));
+        }
+        let n = self.pixels.len();
+        self.columns.fill(sampler, &self.samplers, scene);
+        plan.sensor.wavelengths_many(&self.columns.wavelength[..n], &mut self.lambda);
+        if !scene.camera.moves() {
+            in_lanes(Rays { n: padded(n), plan, camera: &scene.camera, columns: &mut self.columns });
+        }
+        n > 0
+    }
+
+    /// Each with its sampler.
+    pub(super) fn iter(
+        &self,
+        scene: &Scene,
+        plan: &RenderPlan,
+    ) -> impl Iterator<Item = (PixelSampler<'a>, CameraSample)> {
+        self.pixels.iter().enumerate().map(move |(k, &pixel)| {
+            let columns = &self.columns;
+            let sample = if scene.camera.moves() {
+                CameraSample::new(scene, plan, pixel, &columns.numbers(k))
+            } else {
+                let time = if scene.moves { scene.camera.time(columns.time[k]) } else { 0.0 };
+                let ray = Ray { time, ..Ray::new(vector(&columns.o, k), vector(&columns.d, k)) };
+                CameraSample {
+                    place: FilmPlace { pixel, weight: columns.weight[k] },
+                    lambda: self.lambda[k],
+                    ray,
+                }
+            };
+            (self.samplers[k], sample)
+        })
+    }
+}
+
+impl Columns {
+    fn fill(&mut self, sampler: &Sampler, paths: &[PixelSampler<'_>], scene: &Scene) {
+        let [wavelength, time, lens] = CameraNumbers::DIMENSIONS;
+        sampler.fill_1d(paths, wavelength, &mut self.wavelength[..]);
+        if scene.moves {
+            sampler.fill_1d(paths, time, &mut self.time[..]);
+        }
+        sampler.fill_pixel_2d(paths, self.pixel.each_mut().map(|c| &mut c[..]));
+        sampler.fill_2d(paths, lens, self.lens.each_mut().map(|c| &mut c[..]));
+    }
+    fn numbers(&self, k: usize) -> CameraNumbers {
+        CameraNumbers {
+            wavelength: self.wavelength[k],
+            time: self.time[k],
+            pixel: self.pixel.each_ref().map(|c| c[k]),
+            lens: self.lens.each_ref().map(|c| c[k]),
+        }
+    }
+}
+
+/// Points on the film and rays through them, from a camera at rest.
+struct Rays<'a> {
+    n: usize,
+    plan: &'a RenderPlan,
+    camera: &'a Camera,
+    columns: &'a mut Columns,
+}
+
+impl InLanes for Rays<'_> {
+    type Output = ();
+    #[inline(always)]
+    fn run<R: Real>(self) {
+        let Rays { n, plan, camera, columns } = self;
+        let Columns { pixel: [u, v], lens: [lens_u, lens_v], place: [x, y], weight, o, d, .. } = columns;
+        for k in (0..n).step_by(R::WIDTH) {
+            let (film, w) = film_point(plan, [load(x, k), load(y, k)], [load(u, k), load(v, k)]);
+            let (from, to) = camera.at_rest::<R>(film, [load(lens_u, k), load(lens_v, k)]);
+            w.store(&mut weight[..], k);
+            store_vector(from, o, k);
+            store_vector(to, d, k);
+        }
+    }
+}

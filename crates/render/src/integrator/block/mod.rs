@@ -1,0 +1,165 @@
+//! The path tracer over a block of paths side by side: [`Block`].
+//!
+//! The steps are those of the loop in `path.rs`, each done for all paths before the next: rays go to the geometry together, and
+//! the vertices of one material are scattered in lanes. Every number is computed by the same text, and each path adds up its light
+//! in the same order, so that both give the same bits; a test compares them on every scene of the repository.
+//!
+//! Nothing is allocated for a path: a thread works with one block, whose columns are filled again and again.
+
+mod batch;
+mod column;
+mod fresh;
+mod groups;
+mod lanes;
+mod paths;
+mod shadow;
+
+use sparrow_geometry::{Hit, SurfacePoint};
+
+use self::batch::Batch;
+use self::column::BATCH;
+pub(crate) use self::column::{Column, pad};
+use self::fresh::Fresh;
+use self::groups::Groups;
+use self::paths::Paths;
+use self::shadow::Shadows;
+use super::{Exposed, Finder, PathIntegrator, RayCounts, Record};
+use crate::observe::TileObserver;
+use crate::plan::RenderPlan;
+use crate::sampler::Sampler;
+use crate::scene::Scene;
+
+/// Paths under way at once: enough to fill the lanes of several materials, few enough for the second cache.
+const N_PATHS: usize = 1024;
+
+/// Paths side by side, and room for what happens at their vertices.
+pub(crate) struct Block<'a, R> {
+    fresh: Fresh<'a>,
+    paths: Paths<'a, R>,
+    hits: Vec<Option<Hit>>,
+    points: Vec<Option<SurfacePoint>>,
+    groups: Groups,
+    batch: Batch<'a>,
+    shadows: Shadows,
+    rays: RayCounts,
+}
+
+impl<R: Record + Default> Default for Block<'_, R> {
+    fn default() -> Self {
+        Block {
+            fresh: Fresh::default(),
+            paths: Paths::default(),
+            hits: Vec::new(),
+            points: Vec::new(),
+            groups: Groups::default(),
+            batch: Batch::default(),
+            shadows: Shadows::default(),
+            rays: RayCounts::default(),
+        }
+    }
+}
+
+impl<'a, R: Record + Default> Block<'a, R> {
+    /// Follows a path from each of `samples`, a pixel and a number, and hands its light to `tile`. Says how many rays that took.
+    pub(crate) fn render<T: TileObserver<Record = R>>(
+        &mut self,
+        scene: &Scene,
+        sampler: &'a Sampler,
+        samples: &mut impl Iterator<Item = ([u32; 2], u32)>,
+        tile: &mut Exposed<'_, T>,
+    ) -> RayCounts {
+        let how = tile.plan.integrator;
+        while self.generate(scene, tile.plan, sampler, samples) {
+            self.intersect(scene);
+            self.emitted(scene, &how);
+            self.group(scene, &how);
+            for i in 0..self.groups.len() {
+                let (key, paths) = self.groups.batch(i);
+                self.batch.draw(sampler, &self.paths, paths);
+                self.batch.sample_lights(scene, &how, &mut self.paths, &self.points, paths);
+                self.batch.bind(scene, &mut self.paths, &self.points, key);
+                self.batch.f_cos_pdf();
+                self.shadows.push(&how, &self.batch, &self.paths, &self.points);
+                self.batch.scatter(&mut self.paths, &self.points);
+            }
+            self.rays.shadow += self.shadows.trace(scene, &mut self.paths);
+            self.film(tile);
+        }
+        self.rays.scattered -= self.rays.camera;
+        core::mem::take(&mut self.rays)
+    }
+
+    /// Fills the block with new paths; false where none is under way.
+    fn generate(
+        &mut self,
+        scene: &Scene,
+        plan: &RenderPlan,
+        sampler: &'a Sampler,
+        samples: &mut impl Iterator<Item = ([u32; 2], u32)>,
+    ) -> bool {
+        let before = self.paths.len();
+        while self.paths.len() < N_PATHS {
+            let room = N_PATHS - self.paths.len();
+            if !self.fresh.draw(scene, sampler, plan, &mut samples.take(room)) {
+                break;
+            }
+            for (sampler, sample) in self.fresh.iter(scene, plan) {
+                self.paths.push(sampler, sample);
+            }
+        }
+        self.rays.camera += (self.paths.len() - before) as u64;
+        self.paths.len() > 0
+    }
+
+    /// The nearest surface of each path's ray.
+    fn intersect(&mut self, scene: &Scene) {
+        self.rays.scattered += self.paths.len() as u64;
+        scene.intersect_many(&self.paths.ray, &mut self.hits, &mut self.points);
+    }
+
+    /// Light that the rays found.
+    fn emitted(&mut self, scene: &Scene, how: &PathIntegrator) {
+        let paths = &mut self.paths;
+        for (i, hit) in self.points.iter().enumerate() {
+            let (beta, last, lambda) = (paths.beta[i], paths.last[i].as_ref(), &paths.lambda[i]);
+            let by = paths.depth[i].checked_sub(1).map_or(Finder::Camera, Finder::Bsdf);
+            let record = &mut paths.record[i];
+            let found = |light, w| record.found(by, beta * light, w);
+            paths.l[i] += beta * scene.emitted(&paths.ray[i], hit.as_ref(), last, how.mis, lambda, found);
+        }
+    }
+
+    /// Paths end, pass through, or have a vertex: these are put together by material.
+    fn group(&mut self, scene: &Scene, how: &PathIntegrator) {
+        let paths = &mut self.paths;
+        self.groups.clear(2 * scene.n_materials());
+        for (i, hit) in self.points.iter().enumerate() {
+            let (depth, n_smooth) = (paths.depth[i], paths.n_smooth[i]);
+            let deep = depth == how.max_depth || n_smooth == how.max_smooth;
+            let Some(point) = hit.as_ref().filter(|_| !deep) else {
+                paths.ended[i] = true;
+                continue;
+            };
+            match scene.material_of(point) {
+                Some(material) => {
+                    let regularized = how.regularize && n_smooth > 0;
+                    self.groups.push(batch::key(material, regularized), depth, i as u32);
+                }
+                None => paths.ray[i] = point.spawn(paths.ray[i].d),
+            }
+        }
+        self.groups.sort(BATCH);
+    }
+
+    /// Hands over the light of paths that have ended, and forgets them.
+    fn film<T: TileObserver<Record = R>>(&mut self, tile: &mut Exposed<'_, T>) {
+        let paths = &mut self.paths;
+        // From the end, so that what takes the place of a path has been looked at.
+        for i in (0..paths.len()).rev() {
+            if paths.ended[i] {
+                tile.take(paths.place[i], paths.l[i], &paths.lambda[i], &paths.record[i]);
+                paths.remove(i);
+            }
+        }
+    }
+}

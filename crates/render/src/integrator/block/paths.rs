@@ -1,0 +1,117 @@
+//! The paths of a block: [`Paths`].
+
+use sparrow_geometry::{Ray, SurfacePoint};
+use sparrow_spectra::{Spectrum, Wavelengths};
+
+use crate::integrator::CameraSample;
+use crate::integrator::path::roulette;
+use crate::integrator::start::FilmPlace;
+use crate::light::LitPoint;
+use crate::sampler::PixelSampler;
+use crate::scatter::{Density, ScatterSample};
+use crate::scene::LastVertex;
+
+/// Paths under way, a column for each thing that is known of them.
+pub(super) struct Paths<'a, R> {
+    pub(super) place: Vec<FilmPlace>,
+    pub(super) sampler: Vec<PixelSampler<'a>>,
+    pub(super) lambda: Vec<Wavelengths>,
+    pub(super) ray: Vec<Ray>,
+    pub(super) l: Vec<Spectrum<f32>>,
+    pub(super) beta: Vec<Spectrum<f32>>,
+    pub(super) eta_scale: Vec<f32>,
+    pub(super) last: Vec<Option<LastVertex>>,
+    pub(super) depth: Vec<u32>,
+    pub(super) n_smooth: Vec<u32>,
+    /// The direction from the BSDF looks for lights.
+    pub(super) looks: Vec<bool>,
+    pub(super) ended: Vec<bool>,
+    pub(super) record: Vec<R>,
+}
+
+impl<R> Default for Paths<'_, R> {
+    fn default() -> Self {
+        Paths {
+            place: Vec::new(),
+            sampler: Vec::new(),
+            lambda: Vec::new(),
+            ray: Vec::new(),
+            l: Vec::new(),
+            beta: Vec::new(),
+            eta_scale: Vec::new(),
+            last: Vec::new(),
+            depth: Vec::new(),
+            n_smooth: Vec::new(),
+            looks: Vec::new(),
+            ended: Vec::new(),
+            record: Vec::new(),
+        }
+    }
+}
+
+impl<'a, R: Default> Paths<'a, R> {
+    pub(super) fn len(&self) -> usize {
+        self.ray.len()
+    }
+
+    /// A new path.
+    pub(super) fn push(&mut self, sampler: PixelSampler<'a>, start: CameraSample) {
+        self.place.push(start.place);
+        self.sampler.push(sampler);
+        self.lambda.push(start.lambda);
+        self.ray.push(start.ray);
+        self.l.push(Spectrum::ZERO);
+        self.beta.push(Spectrum::ONE);
+        self.eta_scale.push(1.0);
+        self.last.push(None);
+        self.depth.push(0);
+        self.n_smooth.push(0);
+        self.looks.push(true);
+        self.ended.push(false);
+        self.record.push(R::default());
+    }
+
+    /// Puts the last path in the place of one that has ended.
+    pub(super) fn remove(&mut self, i: usize) {
+        self.place.swap_remove(i);
+        self.sampler.swap_remove(i);
+        self.lambda.swap_remove(i);
+        self.ray.swap_remove(i);
+        self.l.swap_remove(i);
+        self.beta.swap_remove(i);
+        self.eta_scale.swap_remove(i);
+        self.last.swap_remove(i);
+        self.depth.swap_remove(i);
+        self.n_smooth.swap_remove(i);
+        self.looks.swap_remove(i);
+        self.ended.swap_remove(i);
+        self.record.swap_remove(i);
+    }
+
+    /// Takes path `i` from `point` along a sampled direction; false where roulette ends it, by the uniform number `u`.
+    #[inline]
+    pub(super) fn go_on(&mut self, i: usize, point: &SurfacePoint, s: &ScatterSample, u: f32) -> bool {
+        let beta = &mut self.beta[i];
+        *beta *= s.weight;
+        self.eta_scale[i] *= s.eta * s.eta;
+        self.last[i] = match s.density {
+            Density::SolidAngle(pdf) => {
+                self.n_smooth[i] += 1;
+                let pdf = if self.looks[i] { pdf } else { 0.0 };
+                Some(LastVertex { at: LitPoint { p: point.p, n: point.ns }, pdf })
+            }
+            Density::Delta(_) => None,
+        };
+        self.ray[i] = point.spawn(s.wi);
+        self.depth[i] += 1;
+
+        let survival = roulette((*beta * self.eta_scale[i]).max_value());
+        if survival < 1.0 && self.depth[i] > 1 {
+            if u >= survival {
+                return false;
+            }
+            *beta *= 1.0 / survival;
+        }
+        true
+    }
+}

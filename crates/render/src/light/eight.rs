@@ -1,0 +1,127 @@
+//! Eight lights or groups of lights, weighed at once in lanes.
+
+use sparrow_math::{Real, Vec3, vec3};
+
+use super::LitPoint;
+use super::bounds::LightBounds;
+
+/// Lights in one [`Eight`].
+pub(super) const EIGHT: usize = 8;
+
+/// The least that an angle takes from importance where light may arrive: a fibre takes light across its normal.
+const LEAST_COSINE: f64 = 0.02;
+/// Angles of emission are widened by so much, in rad, against rounding.
+const MARGIN: f64 = 1e-3;
+/// What shines has at least this importance, however weak or far it is.
+const LEAST: f64 = 1e-36;
+/// No importance is larger, so that they can be added up.
+const MOST: f64 = 1e36;
+
+type Column = [f32; EIGHT];
+
+/// Bounds by columns; empty places have power 0.
+#[derive(Clone, Debug, Default)]
+#[repr(align(32))]
+pub(super) struct Eight {
+    power: Column,
+    /// Ball around the bounds.
+    center: [Column; 3],
+    radius: Column,
+    /// Cone of normals.
+    axis: [Column; 3],
+    cos_normals: Column,
+    sin_normals: Column,
+    /// Least cosine of light to its normal.
+    cos_emission: Column,
+    /// 1 where both sides shine, else 0.
+    two_sided: Column,
+}
+
+/// Cosine and sine of an angle.
+type Turn<R> = (R, R);
+
+/// The angle `a - b`, or zero where `b` is the larger; both lie in [0, pi].
+#[inline(always)]
+fn less<R: Real>(a: Turn<R>, b: Turn<R>) -> Turn<R> {
+    let inside = a.0.ge(b.0);
+    let (cos, sin) = (a.0 * b.0 + a.1 * b.1, a.1 * b.0 - a.0 * b.1);
+    (R::select(inside, R::ONE, cos), R::select(inside, R::ZERO, sin))
+}
+
+#[inline(always)]
+fn turn<R: Real>(cos: R) -> Turn<R> {
+    (cos, (R::ONE - cos * cos).safe_sqrt())
+}
+
+impl Eight {
+    /// Writes bounds to place `i`.
+    pub(super) fn set(&mut self, i: usize, b: &LightBounds) {
+        let (center, axis) = (b.bounds.center(), b.cone.axis.to_f32());
+        for (k, (c, a)) in center.to_array().into_iter().zip(axis.to_array()).enumerate() {
+            self.center[k][i] = c;
+            self.axis[k][i] = a;
+        }
+        let (sin, cos) = Real::sin_cos(b.cone.normals.min(core::f64::consts::PI));
+        self.power[i] = b.power;
+        self.radius[i] = b.bounds.radius();
+        (self.cos_normals[i], self.sin_normals[i]) = (cos as f32, sin as f32);
+        self.cos_emission[i] = Real::cos((b.cone.emission + MARGIN).min(core::f64::consts::PI)) as f32;
+        self.two_sided[i] = f32::from(u8::from(b.cone.two_sided));
+    }
+
+    /// About how much light each sends to a point. [ContyKulla2018, eq. 3]
+    #[inline(always)]
+    pub(super) fn importances<R: Real>(&self, at: &LitPoint) -> Column {
+        let mut out = [0.0; EIGHT];
+        for i in (0..EIGHT).step_by(R::WIDTH) {
+            self.importance::<R>(i, at).store(&mut out, i);
+        }
+        out
+    }
+
+    /// Zero only where no light can arrive: cosines are the largest towards any point of the ball.
+    #[inline(always)]
+    fn importance<R: Real>(&self, i: usize, at: &LitPoint) -> R {
+        let load = |c: &[Column; 3]| vec3(R::load(&c[0], i), R::load(&c[1], i), R::load(&c[2], i));
+        let spread = |v: Vec3<f32>| vec3(R::of(v.x.into()), R::of(v.y.into()), R::of(v.z.into()));
+        let (power, radius) = (R::load(&self.power, i), R::load(&self.radius, i));
+        let to = load(&self.center) - spread(at.p);
+        let (d2, r2) = (to.length2(), radius * radius);
+        let inv = R::ONE / d2.max(R::of(1e-30)).sqrt();
+        let d = to * inv;
+        let sin_ball = (radius * inv).min(R::ONE);
+        let ball = ((R::ONE - sin_ball * sin_ball).safe_sqrt(), sin_ball);
+
+        let cos = -load(&self.axis).dot(d);
+        let cos = R::select(R::load(&self.two_sided, i).gt(R::ZERO), cos.abs(), cos);
+        let normals = (R::load(&self.cos_normals, i), R::load(&self.sin_normals, i));
+        let (emits, _) = less(less(turn(cos), normals), ball);
+        let (receives, _) = less(turn(spread(at.n).dot(d).abs()), ball);
+        let least = R::of(LEAST_COSINE);
+        let far = emits.max(least) * receives.max(least) * (inv * inv);
+        // Within the ball nothing is known of distance and angle.
+        let within = d2.le(r2);
+        let near = R::ONE / r2.max(R::of(1e-30));
+
+        let shines = power.gt(R::ZERO) & (within | emits.ge(R::load(&self.cos_emission, i)));
+        let weight = (power * R::select(within, near, far)).clamp(R::of(LEAST), R::of(MOST));
+        R::select(shines, weight, R::ZERO)
+    }
+}
+
+/// Chooses one of `weights`, whose sum is `total`: its place, its share, and `u` made uniform again.
+///
+/// None where no weight is positive.
+#[inline(always)]
+pub(super) fn pick(weights: &[f32], total: f32, u: f64) -> Option<(usize, f32, f64)> {
+    let mut left = u * f64::from(total);
+    let mut last = None;
+    for (i, &w) in weights.iter().enumerate().filter(|(_, w)| **w > 0.0) {
+        last = Some((i, w / total, (left / f64::from(w)).clamp(0.0, 1.0)));
+        if left < f64::from(w) {
+            break;
+        }
+        left -= f64::from(w);
+    }
+    last
+}
