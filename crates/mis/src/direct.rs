@@ -56,6 +56,11 @@ impl Mis {
     pub fn bsdf_weight(self, p_bsdf: f32, p_light: f32) -> f32 {
         self.weight(p_light, p_bsdf, 1)
     }
+    /// Weight of a sample of a light that no direction can find by chance, a point or a sun, over the chance of its turn.
+    #[inline]
+    pub fn delta_weight(self) -> f32 {
+        if self == Mis::OneSample { 2.0 } else { 1.0 }
+    }
     #[inline]
     fn weight(self, p_light: f32, p_bsdf: f32, k: usize) -> f32 {
         let both = [p_light, p_bsdf].map(|pdf| Technique { count: 1.0, pdf });

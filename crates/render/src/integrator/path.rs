@@ -177,7 +177,7 @@ impl Scattered {
     /// From value times cosine towards the light, and the density with which the BSDF draws that direction.
     #[inline]
     pub(super) fn new(mis: Mis, light: &LightSample, f_cos: Spectrum<f32>, pdf: f32) -> Scattered {
-        let w = if light.delta { 1.0 } else { mis.light_weight(light.pdf, pdf) };
+        let w = if light.delta { mis.delta_weight() } else { mis.light_weight(light.pdf, pdf) };
         let arrives = f_cos * light.radiance;
         Scattered { unweighted: arrives * (1.0 / light.pdf), weight: w, weighted: arrives * (w / light.pdf) }
     }

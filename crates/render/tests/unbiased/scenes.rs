@@ -74,7 +74,7 @@ fn under_square() -> f64 {
 
 /// More lamps than are weighed one by one: a spiral of triangles that face all ways, and a sky.
 ///
-/// No point and no spot: BSDF sampling finds neither, and `one-sample` gives them too little.
+/// No point and no spot: `bsdf-only` finds neither.
 fn many_lights() -> String {
     let (mut points, mut indices) = (String::new(), String::new());
     for i in 0..90 {

@@ -50,6 +50,9 @@ impl Builder {
         };
         let mut parts = parts.spectrum(name, SpectrumParam::Texture(texture));
         parts.choices.push(("absorption", choice));
+        // Ours: pbrt-v4 knows the near field alone.
+        let field = self.choice(p, "field", &[("near", 0), ("far", 1)], "near");
+        parts.choices.push(("field", field.unwrap_or(0)));
         parts
     }
 

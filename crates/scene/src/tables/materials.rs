@@ -108,6 +108,7 @@ pub(super) static MATERIALS: [Entity; 14] = [
             row("beta_m", Kind::FloatTexture),
             row("beta_n", Kind::FloatTexture),
             row("alpha", Kind::FloatTexture),
+            row("field", Kind::Text),
         ]],
     ),
     Entity::new(
