@@ -111,13 +111,21 @@ impl Curves {
         match self.unit {
             Unit::Portable => self.hit_portable(BlockTest { curves: self, block, ray, first, t_max, found }),
             #[cfg(target_arch = "x86_64")]
-            Unit::Avx2(_) => in_lanes(BlockTest { curves: self, block, ray, first, t_max, found }),
+            Unit::Avx2(_) => self.hit_in_lanes(BlockTest { curves: self, block, ray, first, t_max, found }),
         }
     }
-    /// In lanes that every target has. Compiled once: that takes long.
+    // Both are compiled once, whatever waits for the hits: that takes long.
+
+    /// In lanes that every target has.
     #[inline(never)]
     fn hit_portable(&self, test: BlockTest<dyn FnMut(RawHit) -> f32 + '_>) -> f32 {
         test.run::<Lanes<8>>()
+    }
+    /// In the registers of this processor.
+    #[cfg(target_arch = "x86_64")]
+    #[inline(never)]
+    fn hit_in_lanes(&self, test: BlockTest<dyn FnMut(RawHit) -> f32 + '_>) -> f32 {
+        in_lanes(test)
     }
 
     /// The nearest point of the ray on piece `i` of a block.
