@@ -3,7 +3,7 @@
 /// A formula with its source and the code that computes it.
 #[derive(Clone, Copy, Debug)]
 pub struct Formula {
-    /// The formula, in the notation of [`mathml`](crate::mathml).
+    /// The formula, in the notation of the module `mathml`.
     pub text: &'static str,
     /// Where it stands: `[Key, eq. n]`.
     pub source: &'static str,
