@@ -7,9 +7,9 @@ use sparrow_spectra::{
 
 use crate::spectrum::{SceneSpectrum, light_table};
 
-/// Wavelengths in nm that stand for red, green and blue where a model asks for one: those that look like the primaries of sRGB
-/// mixed with white.
-const PRIMARIES: [f32; 3] = [611.4, 549.1, 464.2];
+/// Wavelengths in nm that stand for red, green and blue where a model asks for one: the dominant wavelengths of the primaries of sRGB,
+/// where the line from its white through each meets the spectral locus of the CIE 1931 observer.
+const PRIMARIES: [f32; 3] = [611.3, 549.1, 464.3];
 
 /// What the numbers of a path's [`Spectrum`] are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
