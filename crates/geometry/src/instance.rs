@@ -135,7 +135,7 @@ impl Placed {
 }
 
 /// A box with room for `n` roundings in a row of numbers as large as its corners; `None` where it is not finite.
-fn padded(b: &Aabb, n: u32) -> Option<Aabb> {
+pub(crate) fn padded(b: &Aabb, n: u32) -> Option<Aabb> {
     let pad = (b.lo.abs().max(b.hi.abs()) + b.extent()) * gamma(n);
     let (lo, hi) = (b.lo - pad, b.hi + pad);
     (lo.is_finite() && hi.is_finite()).then_some(Aabb { lo, hi })

@@ -7,8 +7,10 @@
 
 mod bvh;
 mod curve;
+mod deforming;
 mod geometry;
 mod instance;
+mod lerp;
 mod patch;
 mod point;
 mod quadric;

@@ -18,6 +18,10 @@ pub struct TriangleMesh {
     pub s: Vec<[f32; 3]>,
     /// Texture coordinates, or empty: then every triangle has (0,0), (1,0), (1,1).
     pub uv: Vec<[f32; 2]>,
+    /// Vertices where motion ends, which each goes to in a straight line; or empty: then they stand still.
+    pub p_end: Vec<[f32; 3]>,
+    /// Shading normals where motion ends, or empty: then they stay as they are.
+    pub n_end: Vec<[f32; 3]>,
 }
 
 /// A mesh of bilinear patches in world space.
@@ -33,6 +37,10 @@ pub struct BilinearMesh {
     pub n: Vec<[f32; 3]>,
     /// Texture coordinates, or empty: then those of the patch itself.
     pub uv: Vec<[f32; 2]>,
+    /// Vertices and normals where motion ends, as in [`TriangleMesh`].
+    pub p_end: Vec<[f32; 3]>,
+    /// As `p_end`.
+    pub n_end: Vec<[f32; 3]>,
 }
 
 /// How control points make a curve. Segments join where they share control points.
@@ -79,6 +87,10 @@ pub struct CurveSet {
     pub normals: Vec<[f32; 3]>,
     /// Every segment is cut into `2^split_depth` pieces with boxes of their own: faster, and larger. At most 2.
     pub split_depth: u8,
+    /// Control points and radii where motion ends, which each goes to evenly; or empty: then they stand still.
+    pub points_end: Vec<[f32; 4]>,
+    /// Normals where motion ends, or empty: then they stay as they are.
+    pub normals_end: Vec<[f32; 3]>,
 }
 
 /// A shape. Quadrics stand in their own object space around the z axis; angles are in radians.

@@ -1,4 +1,4 @@
-//! Four triangles of a leaf, tested together: [`TriBlock`].
+//! Eight triangles of a leaf, tested together: [`TriBlock`].
 //!
 //! Watertight [Woop2013]: the ray is sheared to the z axis, and the signs of the three edge functions decide. Two
 //! triangles that share an edge see the same products there, so no ray passes between them.
@@ -12,6 +12,8 @@ use bytemuck::{Pod, Zeroable};
 use sparrow_math::Vec3;
 
 use super::ray_data::RayData;
+use super::traverse::Block;
+use crate::lerp::Lerp;
 use crate::ray::Ray;
 use crate::simd::{Floats, Simd};
 
@@ -32,7 +34,7 @@ pub(crate) struct RawHit {
     pub(crate) v: f32,
 }
 
-/// Four triangles, side by side. Unused places hold NaN and are never hit.
+/// Eight triangles, side by side. Unused places hold NaN and are never hit.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(32))]
 pub(crate) struct TriBlock {
@@ -41,7 +43,7 @@ pub(crate) struct TriBlock {
     id: [u32; LEAF_SIZE],
 }
 
-// SAFETY: numbers without gaps between them: 160 bytes, a multiple of the alignment.
+// SAFETY: numbers without gaps between them: 320 bytes, a multiple of the alignment.
 unsafe impl Pod for TriBlock {}
 // SAFETY: as above.
 unsafe impl Zeroable for TriBlock {}
@@ -97,9 +99,41 @@ impl TriBlock {
         (0..LEAF_SIZE).filter(used).map(|i| (self.id[i], self.p.map(|p| p.map(|axis| axis[i]))))
     }
 
-    /// Offers every point of the ray before `t_max` to `found`, which answers with the new `t_max`; returns the last of them.
+    /// The triangles between these and those where motion ends.
     #[inline(always)]
-    pub(crate) fn hit<S: Simd>(
+    pub(super) fn between<S: Simd>(&self, end: &TriBlock, at: Lerp) -> TriBlock {
+        let (s, t) = (LeafFloats::<S>::splat(at.start), LeafFloats::<S>::splat(at.end));
+        let mut now = *self;
+        for (now, end) in now.p.as_flattened_mut().iter_mut().zip(end.p.as_flattened()) {
+            *now = (LeafFloats::<S>::load(now) * s + LeafFloats::<S>::load(end) * t).to_array();
+        }
+        now
+    }
+
+    /// Decides in double precision what single precision left open of triangle `i`, its corners `p` in sheared space.
+    #[cold]
+    #[inline(never)]
+    fn settle(&self, ray: &Ray, i: usize, p: [[f32; 3]; 3]) -> Option<RawHit> {
+        // The products are exact in double precision, so the sign of the difference is.
+        let edge =
+            |p: [f32; 3], q: [f32; 3]| f64::from(p[0]) * f64::from(q[1]) - f64::from(p[1]) * f64::from(q[0]);
+        let (u, v, w) = (edge(p[2], p[1]), edge(p[0], p[2]), edge(p[1], p[0]));
+        if (u < 0.0 || v < 0.0 || w < 0.0) && (u > 0.0 || v > 0.0 || w > 0.0) {
+            return None;
+        }
+        let inv = 1.0 / (u + v + w);
+        let corner = |p: &[[f32; LEAF_SIZE]; 3]| Vec3::from(p.map(|x| x[i])).to_f64();
+        let a = corner(&self.p[0]);
+        let n = (corner(&self.p[1]) - a).cross(corner(&self.p[2]) - a);
+        let t = ((a - ray.o.to_f64()).dot(n) / ray.d.to_f64().dot(n)) as f32;
+        let hit = RawHit { t, id: self.id[i], u: (v * inv) as f32, v: (w * inv) as f32 };
+        (t > 0.0 && inv.is_finite()).then_some(hit)
+    }
+}
+
+impl Block for TriBlock {
+    #[inline(always)]
+    fn hit<S: Simd>(
         &self,
         ray: &Ray,
         r: &RayData<S>,
@@ -140,25 +174,5 @@ impl TriBlock {
             }
         }
         t_max
-    }
-
-    /// Decides in double precision what single precision left open of triangle `i`, its corners `p` in sheared space.
-    #[cold]
-    #[inline(never)]
-    fn settle(&self, ray: &Ray, i: usize, p: [[f32; 3]; 3]) -> Option<RawHit> {
-        // The products are exact in double precision, so the sign of the difference is.
-        let edge =
-            |p: [f32; 3], q: [f32; 3]| f64::from(p[0]) * f64::from(q[1]) - f64::from(p[1]) * f64::from(q[0]);
-        let (u, v, w) = (edge(p[2], p[1]), edge(p[0], p[2]), edge(p[1], p[0]));
-        if (u < 0.0 || v < 0.0 || w < 0.0) && (u > 0.0 || v > 0.0 || w > 0.0) {
-            return None;
-        }
-        let inv = 1.0 / (u + v + w);
-        let corner = |p: &[[f32; LEAF_SIZE]; 3]| Vec3::from(p.map(|x| x[i])).to_f64();
-        let a = corner(&self.p[0]);
-        let n = (corner(&self.p[1]) - a).cross(corner(&self.p[2]) - a);
-        let t = ((a - ray.o.to_f64()).dot(n) / ray.d.to_f64().dot(n)) as f32;
-        let hit = RawHit { t, id: self.id[i], u: (v * inv) as f32, v: (w * inv) as f32 };
-        (t > 0.0 && inv.is_finite()).then_some(hit)
     }
 }

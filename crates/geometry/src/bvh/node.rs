@@ -9,6 +9,8 @@ use bytemuck::{Pod, Zeroable};
 use sparrow_math::Aabb;
 
 use super::ray_data::RayData;
+use super::traverse::Boxes;
+use crate::ray::Ray;
 use crate::simd::{Floats, Simd};
 
 /// Children of a node.
@@ -104,14 +106,32 @@ impl Node {
         let face = |side: usize| [0, 1, 2].map(|a: usize| self.bounds[a][side][i]).into();
         (self.child[i] != Child::NONE).then(|| Aabb { lo: face(0), hi: face(1) })
     }
+}
 
-    /// The boxes met between 0 and `t_max`, one bit each, and where the ray enters them.
+impl Boxes for Node {
     #[inline(always)]
-    pub(crate) fn hit<S: Simd>(&self, r: &RayData<S>, t_max: S::F8) -> (u32, S::F8) {
-        let near = |a: usize| (r.o[a] - S::F8::load(&self.bounds[a][r.neg[a] & 1])) * r.minus_inv_near[a];
-        let far = |a: usize| (r.o[a] - S::F8::load(&self.bounds[a][1 - (r.neg[a] & 1)])) * r.minus_inv_far[a];
-        let t0 = near(0).max_nonneg(near(1)).max_nonneg(near(2).max_nonneg(S::F8::splat(0.0)));
-        let t1 = far(0).min_nonneg(far(1)).min_nonneg(far(2).min_nonneg(t_max));
-        (t0.le(t1), t0)
+    fn hit<S: Simd>(&self, _: &Ray, r: &RayData<S>, t_max: S::F8) -> (u32, S::F8) {
+        let near = |a: usize| S::F8::load(&self.bounds[a][r.neg[a] & 1]);
+        let far = |a: usize| S::F8::load(&self.bounds[a][1 - (r.neg[a] & 1)]);
+        meet(r, near, far, t_max)
     }
+    #[inline(always)]
+    fn children(&self) -> &[Child; WIDTH] {
+        &self.child
+    }
+}
+
+/// The boxes met between 0 and `t_max`, and where the ray enters them; `near` and `far` give the faces across an axis.
+#[inline(always)]
+pub(super) fn meet<S: Simd>(
+    r: &RayData<S>,
+    near: impl Fn(usize) -> S::F8,
+    far: impl Fn(usize) -> S::F8,
+    t_max: S::F8,
+) -> (u32, S::F8) {
+    let near = |a: usize| (r.o[a] - near(a)) * r.minus_inv_near[a];
+    let far = |a: usize| (r.o[a] - far(a)) * r.minus_inv_far[a];
+    let t0 = near(0).max_nonneg(near(1)).max_nonneg(near(2).max_nonneg(S::F8::splat(0.0)));
+    let t1 = far(0).min_nonneg(far(1)).min_nonneg(far(2).min_nonneg(t_max));
+    (t0.le(t1), t0)
 }

@@ -1,9 +1,13 @@
 //! Rays through the tree.
 
+use core::fmt::Debug;
+
+use bytemuck::Pod;
+
 use super::Bvh;
-use super::block::{RawHit, TriBlock};
+use super::block::RawHit;
 use super::few::Few;
-use super::node::{Child, Node, WIDTH};
+use super::node::{Child, WIDTH};
 use super::packet;
 use super::ray_data::RayData;
 use super::stack::{Entry, Stack};
@@ -20,16 +24,36 @@ pub(crate) trait Others {
     fn ahead(&self, _id: u32) {}
 }
 
+/// Children of a node, with their boxes.
+pub(crate) trait Boxes: Pod + Debug {
+    /// The boxes met between 0 and `t_max` at the ray's time, one bit each, and where the ray enters them.
+    fn hit<S: Simd>(&self, ray: &Ray, r: &RayData<S>, t_max: S::F8) -> (u32, S::F8);
+    fn children(&self) -> &[Child; WIDTH];
+}
+
+/// Triangles of a leaf.
+pub(crate) trait Block: Pod + Debug {
+    /// Offers every point of the ray before `t_max`, at the ray's time, to `found`, which answers with the new `t_max`;
+    /// returns the last of them.
+    fn hit<S: Simd>(
+        &self,
+        ray: &Ray,
+        r: &RayData<S>,
+        t_max: f32,
+        found: &mut impl FnMut(RawHit) -> f32,
+    ) -> f32;
+}
+
 /// The lists that a ray reads.
-struct Blocks<'a, O> {
+struct Blocks<'a, N, B, O> {
     others: &'a O,
-    nodes: &'a [Node],
-    triangles: &'a [TriBlock],
+    nodes: &'a [N],
+    triangles: &'a [B],
 }
 
 /// Asks for the data of a child ahead of its use.
 #[inline(always)]
-fn ahead(blocks: &Blocks<impl Others>, child: Child) {
+fn ahead<N, B>(blocks: &Blocks<N, B, impl Others>, child: Child) {
     let i = child.index();
     if !child.is_leaf() {
         prefetch(blocks.nodes, i);
@@ -42,17 +66,17 @@ fn ahead(blocks: &Blocks<impl Others>, child: Child) {
 
 /// Goes on to the nearest child met, one of `mask`, and puts the others on the stack.
 #[inline(always)]
-fn descend<const ANY: bool>(
-    blocks: &Blocks<impl Others>,
+fn descend<const ANY: bool, N, B>(
+    blocks: &Blocks<N, B, impl Others>,
     stack: &mut Stack,
-    node: &Node,
+    children: &[Child; WIDTH],
     mut mask: u32,
     t: &[f32; WIDTH],
 ) -> Child {
     let mut next = || {
         let i = mask.trailing_zeros() as usize & (WIDTH - 1);
         mask &= mask - 1;
-        (Entry::new(t[i], node.child[i]), mask != 0)
+        (Entry::new(t[i], children[i]), mask != 0)
     };
     let (mut near, mut more) = next();
     if !more {
@@ -80,14 +104,14 @@ fn descend<const ANY: bool>(
 /// Offers points of the ray before `t_max` to `found`, the nearest boxes first, or with `ANY` in whatever order is quick;
 /// `found` answers with the new `t_max`, which may be negative to end the search.
 #[inline(always)]
-fn walk<S: Simd, const ANY: bool>(
-    bvh: &Bvh,
+fn walk<S: Simd, const ANY: bool, N: Boxes, B: Block>(
+    bvh: &Bvh<N, B>,
     ray: &Ray,
     others: &impl Others,
     mut found: impl FnMut(RawHit) -> f32,
 ) {
     let Some(r) = RayData::<S>::new(ray) else { return };
-    let blocks = Blocks { others, nodes: &bvh.nodes, triangles: &bvh.triangles };
+    let blocks = Blocks { others, nodes: &*bvh.nodes, triangles: &*bvh.triangles };
     let mut stack = Stack::new();
     let (mut t_max, mut child) = (ray.t_max, bvh.root);
     if child == Child::NONE {
@@ -97,12 +121,12 @@ fn walk<S: Simd, const ANY: bool>(
         let t_limit = S::F8::splat(t_max);
         while !child.is_leaf() {
             let node = &blocks.nodes[child.index()];
-            let (mask, t) = node.hit(&r, t_limit);
+            let (mask, t) = node.hit(ray, &r, t_limit);
             if mask == 0 {
                 let Some(c) = stack.pop(t_max) else { return };
                 child = c;
             } else {
-                child = descend::<ANY>(&blocks, &mut stack, node, mask, &t.to_array());
+                child = descend::<ANY, _, _>(&blocks, &mut stack, node.children(), mask, &t.to_array());
             }
         }
         t_max = if child.is_others() {
@@ -119,18 +143,24 @@ fn walk<S: Simd, const ANY: bool>(
 }
 
 /// One ray through a tree.
-struct Walk<'a, const ANY: bool, O, F> {
-    bvh: &'a Bvh,
+struct Walk<'a, const ANY: bool, N: Boxes, B: Block, O, F> {
+    bvh: &'a Bvh<N, B>,
     ray: &'a Ray,
     others: &'a O,
     found: F,
 }
 
-impl<const ANY: bool, O: Others, F: FnMut(RawHit) -> f32> Kernel for Walk<'_, ANY, O, F> {
+impl<const ANY: bool, N, B, O, F> Kernel for Walk<'_, ANY, N, B, O, F>
+where
+    N: Boxes,
+    B: Block,
+    O: Others,
+    F: FnMut(RawHit) -> f32,
+{
     type Output = ();
     #[inline(always)]
     fn run<S: Simd>(self) {
-        walk::<S, ANY>(self.bvh, self.ray, self.others, self.found);
+        walk::<S, ANY, _, _>(self.bvh, self.ray, self.others, self.found);
     }
 }
 
@@ -174,7 +204,7 @@ impl<const ANY: bool, O: Others, P: FnMut(usize, Option<RawHit>)> Kernel for Wal
             for (i, (ray, found)) in rays.iter().zip(&mut found).enumerate() {
                 if alone >> i & 1 == 1 {
                     let mut best = Best { accept: |_: &RawHit| true, hit: None, t_max: ray.t_max };
-                    walk::<S, ANY>(self.bvh, ray, self.others, |h| best.offer::<ANY>(h));
+                    walk::<S, ANY, _, _>(self.bvh, ray, self.others, |h| best.offer::<ANY>(h));
                     *found = best.hit;
                 }
                 (self.put)(n * packet::RAYS + i, *found);
@@ -183,12 +213,15 @@ impl<const ANY: bool, O: Others, P: FnMut(usize, Option<RawHit>)> Kernel for Wal
     }
 }
 
-impl Bvh {
+impl<N: Boxes, B: Block> Bvh<N, B> {
     /// Offers points of the ray before its end to `found`, which answers with the new end.
     #[inline]
     pub(crate) fn visit(&self, ray: &Ray, others: &impl Others, found: impl FnMut(RawHit) -> f32) {
-        self.unit.run(Walk::<false, _, _> { bvh: self, ray, others, found });
+        self.unit.run(Walk::<false, _, _, _, _> { bvh: self, ray, others, found });
     }
+}
+
+impl Bvh {
     /// The nearest point of the ray that `accept` takes; with `ANY`, the first one come across.
     #[inline]
     pub(crate) fn hit<const ANY: bool>(
@@ -198,7 +231,7 @@ impl Bvh {
         accept: impl Fn(&RawHit) -> bool,
     ) -> Option<RawHit> {
         let mut best = Best { accept, hit: None, t_max: ray.t_max };
-        self.unit.run(Walk::<ANY, _, _> { bvh: self, ray, others, found: |h| best.offer::<ANY>(h) });
+        self.unit.run(Walk::<ANY, _, _, _, _> { bvh: self, ray, others, found: |h| best.offer::<ANY>(h) });
         best.hit
     }
     /// The same for each ray of a list, without a choice; `put` takes the answers in order. `few` may be what [`Few::new`] made

@@ -1,6 +1,7 @@
 //! Curves: strips and tubes along splines. What they mean stands in [README.md](README.md).
 
 mod cubic;
+mod deforming;
 mod frame;
 mod group;
 mod obb;
@@ -10,6 +11,8 @@ mod strip;
 mod surface;
 mod tube;
 
+use cubic::Cubic;
+pub(crate) use deforming::DeformingCurves;
 use frame::{RayCubic, RayFrame};
 use obb::{Entries, ObbBlock, WIDTH};
 use pieces::{CurveHit, Pieces};
@@ -47,17 +50,28 @@ pub(crate) struct Curves {
     unit: Unit,
 }
 
+/// Into how many parts `n` segments are cut, as a power of two.
+fn split_of(set: &CurveSet, n: usize) -> u32 {
+    let mut split = u32::from(set.split_depth).min(MAX_SPLIT);
+    while n << split > MAX_SEGMENTS && split > 0 {
+        split -= 1;
+    }
+    split
+}
+
+/// What surface `n` segments have: ribbons need a normal for each end of a segment.
+fn kind_of(set: &CurveSet, n: usize) -> CurveKind {
+    let fits = set.normals.len() == n + set.strands.len();
+    if set.kind == CurveKind::Ribbon && !fits { CurveKind::Flat } else { set.kind }
+}
+
 impl Curves {
     /// Takes curves. Ribbons without a normal for every end of a segment become flat.
     pub(crate) fn new(mut set: CurveSet) -> Curves {
         let strands = Strands::new(&mut set);
         let n = strands.n_segments();
-        let mut split = u32::from(set.split_depth).min(MAX_SPLIT);
-        while n << split > MAX_SEGMENTS && split > 0 {
-            split -= 1;
-        }
-        let normals_fit = set.normals.len() == n + set.strands.len();
-        let kind = if set.kind == CurveKind::Ribbon && !normals_fit { CurveKind::Flat } else { set.kind };
+        let split = split_of(&set, n);
+        let kind = kind_of(&set, n);
         let normals = if kind == CurveKind::Ribbon { set.normals } else { Vec::new() };
         let (mut pieces, dropped) = group::pieces(&strands, split);
         let make = |id: u32| {
@@ -133,31 +147,54 @@ impl Curves {
     fn hit_piece<R: Real>(&self, block: &ObbBlock, i: usize, r: &RayFrame, t_max: f32) -> Option<CurveHit> {
         let (segment, u) = part_of(block.id[i], self.split);
         let c = self.strands.cubic_at(block.place[i]);
-        let seen = RayCubic::new(&c, r);
-        let pieces = Pieces::new(&seen, u, c.largest_radius());
-        match self.kind {
-            CurveKind::Round => tube::hit::<R>(&seen, &pieces, r.inv_length, t_max),
-            CurveKind::Flat | CurveKind::Cylinder => {
-                strip::hit::<R>(&seen, &pieces, Width::Full, r.inv_length, t_max)
-            }
-            CurveKind::Ribbon => {
-                let (n, angle) = self.end_normals(segment);
-                let along = n.map(|n| n.dot(r.z));
-                strip::hit::<R>(&seen, &pieces, Width::Ribbon { angle, along }, r.inv_length, t_max)
-            }
-        }
+        hit_part::<R>(&c, u, self.kind, || self.end_normals(segment), r, t_max)
     }
+    /// Unit normals of a ribbon at the ends of a segment.
+    fn end_normals(&self, segment: u32) -> EndNormals {
+        EndNormals::new(self.strands.normals_of(segment, &self.normals))
+    }
+}
 
-    /// Unit normals of a ribbon at the ends of a segment, and the angle between them.
-    fn end_normals(&self, segment: u32) -> ([Vec3<f32>; 2], f32) {
-        let (strand, _, _) = self.strands.in_strand(segment);
-        let at = segment as usize + strand;
+/// Unit normals of a ribbon at the ends of a segment, and the angle between them.
+#[derive(Clone, Copy, Debug, Default)]
+struct EndNormals {
+    n: [Vec3<f32>; 2],
+    angle: f32,
+}
+
+impl EndNormals {
+    fn new(n: [[f32; 3]; 2]) -> EndNormals {
         let unit = |n: [f32; 3]| {
             let n = Vec3::from(n);
             if n.length2() > 0.0 && n.is_finite() { n.normalized() } else { Vec3::splat(0.0) }
         };
-        let n = [unit(self.normals[at]), unit(self.normals[at + 1])];
-        (n, Real::acos(n[0].dot(n[1])))
+        let n = n.map(unit);
+        EndNormals { n, angle: Real::acos(n[0].dot(n[1])) }
+    }
+}
+
+/// The nearest point of the ray on the part of a segment between two parameters; `ends` are asked of ribbons.
+#[inline(always)]
+fn hit_part<R: Real>(
+    c: &Cubic,
+    u: [f32; 2],
+    kind: CurveKind,
+    ends: impl FnOnce() -> EndNormals,
+    r: &RayFrame,
+    t_max: f32,
+) -> Option<CurveHit> {
+    let seen = RayCubic::new(c, r);
+    let pieces = Pieces::new(&seen, u, c.largest_radius());
+    match kind {
+        CurveKind::Round => tube::hit::<R>(&seen, &pieces, r.inv_length, t_max),
+        CurveKind::Flat | CurveKind::Cylinder => {
+            strip::hit::<R>(&seen, &pieces, Width::Full, r.inv_length, t_max)
+        }
+        CurveKind::Ribbon => {
+            let EndNormals { n, angle } = ends();
+            let along = n.map(|n| n.dot(r.z));
+            strip::hit::<R>(&seen, &pieces, Width::Ribbon { angle, along }, r.inv_length, t_max)
+        }
     }
 }
 
@@ -242,6 +279,7 @@ mod tests {
                 kind,
                 normals: if kind == CurveKind::Ribbon { Clone::clone(&normals) } else { Vec::new() },
                 split_depth: 1,
+                ..CurveSet::default()
             };
             let (mut portable, mut best) = (Curves::new(set()), Curves::new(set()));
             assert_eq!(portable.kind, kind);

@@ -24,6 +24,21 @@ pub(super) struct Strands {
     basis: CurveBasis,
 }
 
+/// Where control points are found.
+pub(super) trait ControlPoints {
+    /// Those from number `i` on.
+    fn at<const N: usize>(&self, i: usize) -> [[f32; 4]; N];
+}
+
+impl ControlPoints for [[f32; 4]] {
+    #[inline(always)]
+    fn at<const N: usize>(&self, i: usize) -> [[f32; 4]; N] {
+        let mut p = [[0.0; 4]; N];
+        p.copy_from_slice(&self[i..i + N]);
+        p
+    }
+}
+
 /// Segments of a strand of `n` points.
 fn n_segments(basis: CurveBasis, n: usize) -> usize {
     match basis {
@@ -85,27 +100,43 @@ impl Strands {
     /// The segment with its control points at that place.
     #[inline(always)]
     pub(super) fn cubic_at(&self, s: u32) -> Cubic {
+        self.cubic_of(s, &*self.points)
+    }
+    /// The same with other control points in these places.
+    #[inline(always)]
+    pub(super) fn cubic_of(&self, s: u32, points: &(impl ControlPoints + ?Sized)) -> Cubic {
         let i = (s & POINT) as usize;
         let p = match self.basis {
             CurveBasis::Linear => {
-                let [a, b] = [self.points[i], self.points[i + 1]];
+                let [a, b] = points.at(i);
                 [a, b, b, b]
             }
-            CurveBasis::Bezier | CurveBasis::BSpline => {
-                let p = &self.points[i..i + 4];
-                [p[0], p[1], p[2], p[3]]
-            }
+            CurveBasis::Bezier | CurveBasis::BSpline => points.at(i),
             CurveBasis::CatmullRom => {
-                let [a, b] = [self.points[i], self.points[i + 1]];
+                let [a, b] = points.at(i);
                 let mirrored = |a: [f32; 4], b: [f32; 4]| {
                     [2.0 * a[0] - b[0], 2.0 * a[1] - b[1], 2.0 * a[2] - b[2], 2.0 * a[3] - b[3]]
                 };
-                let before = if s & FIRST != 0 { mirrored(a, b) } else { self.points[i - 1] };
-                let behind = if s & LAST != 0 { mirrored(b, a) } else { self.points[i + 2] };
+                let one = |i: usize| {
+                    let [p] = points.at(i);
+                    p
+                };
+                let before = if s & FIRST != 0 { mirrored(a, b) } else { one(i - 1) };
+                let behind = if s & LAST != 0 { mirrored(b, a) } else { one(i + 2) };
                 [before, a, b, behind]
             }
         };
         Cubic::new(self.basis, &p)
+    }
+    /// All control points.
+    pub(super) fn points(&self) -> &[[f32; 4]] {
+        &self.points
+    }
+
+    /// Of a list with one for each end of a segment, those of one.
+    pub(super) fn normals_of(&self, segment: u32, normals: &[[f32; 3]]) -> [[f32; 3]; 2] {
+        let at = segment as usize + self.in_strand(segment).0;
+        [normals[at], normals[at + 1]]
     }
 
     /// Asks for the points at a place ahead of their use.
@@ -118,9 +149,13 @@ impl Strands {
 
     /// The segment can be hit: numbers are finite, it has a length, and somewhere a radius.
     pub(super) fn is_usable(&self, segment: u32) -> bool {
-        let c = self.cubic(segment);
-        let moves = c.a[1..].iter().any(|a| Vec3::from([a[0], a[1], a[2]]).length2() > 0.0);
-        let finite = c.a.iter().flatten().chain(&c.anchor).all(|v| v.is_finite());
-        moves && finite && c.reach().is_finite() && c.largest_radius() > 0.0
+        is_usable(&self.cubic(segment))
     }
+}
+
+/// Such a segment can be hit.
+pub(super) fn is_usable(c: &Cubic) -> bool {
+    let moves = c.a[1..].iter().any(|a| Vec3::from([a[0], a[1], a[2]]).length2() > 0.0);
+    let finite = c.a.iter().flatten().chain(&c.anchor).all(|v| v.is_finite());
+    moves && finite && c.reach().is_finite() && c.largest_radius() > 0.0
 }

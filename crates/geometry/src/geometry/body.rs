@@ -5,6 +5,8 @@ use sparrow_math::Aabb;
 
 use crate::bvh::{Kind, MAX_PRIMS, Others, PrimRef, RawHit};
 use crate::curve::Curves;
+use crate::deforming::Deforming;
+use crate::instance::padded;
 use crate::patch::{Part, Patches};
 use crate::quadric::Quadric;
 use crate::ray::{Hit, Ray};
@@ -19,11 +21,17 @@ pub(super) enum Body {
     Curves(Curves),
     /// `None` where nothing of it can be hit.
     Quadric(Option<Box<Quadric>>),
+    /// Any of the first three whose points move.
+    Deforming(Box<Deforming>),
 }
 
 impl Body {
     pub(super) fn new(s: ShapeInstance) -> Body {
-        match s.shape {
+        let shape = match Deforming::new(s.shape, s.flip_normal) {
+            Ok(deforming) => return Body::Deforming(Box::new(deforming)),
+            Err(shape) => shape,
+        };
+        match shape {
             Shape::Triangles(m) => Body::Triangles(Triangles::new(m, s.flip_normal)),
             Shape::Patches(m) => Body::Patches(Patches::new(m, s.flip_normal)),
             Shape::Curves(c) => Body::Curves(Curves::new(c)),
@@ -38,6 +46,7 @@ impl Body {
             Body::Patches(m) => m.len(),
             Body::Curves(c) => c.len(),
             Body::Quadric(_) => 1,
+            Body::Deforming(d) => d.len(),
         }
     }
     /// Numbers the tree sets aside.
@@ -47,6 +56,7 @@ impl Body {
             Body::Patches(m) => 2 * m.len(),
             Body::Curves(c) => c.n_ids(),
             Body::Quadric(_) => 1,
+            Body::Deforming(d) => d.len(),
         }
     }
     pub(super) fn bytes(&self) -> usize {
@@ -55,6 +65,14 @@ impl Body {
             Body::Patches(m) => m.bytes(),
             Body::Curves(c) => c.bytes(),
             Body::Quadric(_) => size_of::<Quadric>(),
+            Body::Deforming(d) => d.bytes() + d.tree_bytes(),
+        }
+    }
+    /// Nodes of a hierarchy of its own.
+    pub(super) fn n_nodes(&self) -> usize {
+        match self {
+            Body::Deforming(d) => d.n_nodes(),
+            Body::Triangles(_) | Body::Patches(_) | Body::Curves(_) | Body::Quadric(_) => 0,
         }
     }
     /// What the tree holds of this shape, numbered from `first`; and how many of its primitives that leaves out.
@@ -87,6 +105,11 @@ impl Body {
                 0
             }
             Body::Quadric(None) => 1,
+            Body::Deforming(d) => {
+                let b = Some(d.bounds()).filter(|b| !b.is_empty());
+                out.extend(b.and_then(|b| padded(&b, 8)).map(|b| PrimRef::new(first, b, Kind::Others)));
+                if out.len() > before { d.dropped() } else { d.len() }
+            }
         }
     }
 }
@@ -157,7 +180,7 @@ impl Bodies {
     fn search(&self, id: u32) -> Place {
         let (shape, local) = self.locate(id);
         let (prim, part) = match &self.bodies[shape as usize] {
-            Body::Triangles(_) | Body::Curves(_) => (local, Part::Whole),
+            Body::Triangles(_) | Body::Curves(_) | Body::Deforming(_) => (local, Part::Whole),
             Body::Patches(m) => (local / 2, m.part(local)),
             Body::Quadric(_) => (0, Part::Whole),
         };
@@ -168,7 +191,7 @@ impl Bodies {
         match &self.bodies[shape as usize] {
             Body::Triangles(m) => m.raw_corners(local),
             Body::Patches(m) => m.triangle(local),
-            Body::Curves(_) | Body::Quadric(_) => [[f32::NAN; 3]; 3],
+            Body::Curves(_) | Body::Quadric(_) | Body::Deforming(_) => [[f32::NAN; 3]; 3],
         }
     }
     /// A ball that holds a primitive, which is not a triangle; `None` where the points that a ray is offered of it depend on
@@ -179,7 +202,7 @@ impl Bodies {
         match &self.bodies[shape as usize] {
             Body::Patches(m) => Some(around(m.bounds(local))),
             Body::Quadric(q) => q.as_ref().map(|q| q.whole().unwrap_or_else(|| around(q.bounds()))),
-            Body::Triangles(_) | Body::Curves(_) => None,
+            Body::Triangles(_) | Body::Curves(_) | Body::Deforming(_) => None,
         }
     }
     /// What the world knows of a point the tree found.
@@ -199,6 +222,7 @@ impl Others for Bodies {
             Body::Patches(m) => m.hit(id, local, ray, t_max, found),
             Body::Curves(c) => c.hit(id - local, local, ray, t_max, found),
             Body::Quadric(Some(q)) => q.hit(id, ray, t_max, found),
+            Body::Deforming(d) => d.hit(id - local, ray, t_max, found),
             Body::Triangles(_) | Body::Quadric(None) => t_max,
         }
     }

@@ -96,7 +96,9 @@ impl Geometry {
         let stats = BuildStats {
             primitives: n_prims.saturating_sub(dropped),
             dropped,
-            nodes: bvh.n_nodes() + instances.n_nodes(),
+            nodes: bvh.n_nodes()
+                + instances.n_nodes()
+                + bodies.bodies.iter().map(Body::n_nodes).sum::<usize>(),
             bytes,
             build_seconds: start.elapsed().as_secs_f64(),
         };
@@ -128,6 +130,7 @@ impl Geometry {
                 Some(q) => q.surface(ray, hit),
                 None => SurfacePoint::nowhere(ray, hit),
             },
+            Body::Deforming(d) => d.surface(ray, hit),
         }
     }
 
@@ -144,6 +147,7 @@ impl Geometry {
             Body::Triangles(m) => m.normal_derivatives(hit),
             Body::Patches(m) => m.normal_derivatives(hit),
             Body::Quadric(Some(q)) => q.normal_derivatives(ray, hit),
+            Body::Deforming(d) => d.normal_derivatives(ray, hit),
             Body::Curves(_) | Body::Quadric(None) => Default::default(),
         }
     }
@@ -179,6 +183,7 @@ impl Geometry {
             Some(Body::Patches(m)) => m.area(prim),
             Some(Body::Curves(c)) => c.area(prim),
             Some(Body::Quadric(Some(q))) => q.area(),
+            Some(Body::Deforming(d)) => d.area(prim),
             Some(Body::Quadric(None)) | None => 0.0,
         }
     }
@@ -198,7 +203,7 @@ impl Geometry {
         match self.body(shape)? {
             Body::Triangles(m) => m.sample_from(prim, from, u),
             Body::Patches(m) => m.sample_from(prim, from, u),
-            Body::Curves(_) => None,
+            Body::Curves(_) | Body::Deforming(_) => None,
             Body::Quadric(q) => q.as_ref()?.sample_from(from.p, u),
         }
     }
@@ -219,7 +224,7 @@ impl Geometry {
             Some(Body::Triangles(m)) => m.pdf_from(prim, from, hit_p, per_area),
             Some(Body::Patches(m)) => m.pdf_from(prim, from, hit_p, hit_n, per_area),
             Some(Body::Quadric(Some(q))) => q.pdf_from(from.p, hit_n, per_area),
-            Some(Body::Curves(_) | Body::Quadric(None)) | None => 0.0,
+            Some(Body::Curves(_) | Body::Quadric(None) | Body::Deforming(_)) | None => 0.0,
         }
     }
     /// Draws a point of a primitive, with a density per area: uniform for triangles, parallelograms and evenly
@@ -228,7 +233,7 @@ impl Geometry {
         match self.body(shape)? {
             Body::Triangles(m) => m.sample_area(prim, u),
             Body::Patches(m) => m.sample_area(prim, u),
-            Body::Curves(_) => None,
+            Body::Curves(_) | Body::Deforming(_) => None,
             Body::Quadric(q) => q.as_ref()?.sample_area(u),
         }
     }

@@ -1,11 +1,13 @@
 //! Bilinear patches: corners, surface, and drawing points.
 
 mod bilinear;
+mod deforming;
 mod flat;
 mod sampling;
 mod surface;
 
 use bilinear::Bilinear;
+pub(crate) use deforming::DeformingPatches;
 use flat::Flat;
 use sparrow_math::{Aabb, Vec3};
 
@@ -142,16 +144,27 @@ impl Patches {
         t_max: f32,
         found: &mut impl FnMut(RawHit) -> f32,
     ) -> f32 {
-        let mut limit = t_max;
-        let patch = self.bilinear(id / 2);
-        for r in patch.roots(ray.o.to_f64(), ray.d.to_f64()).into_iter().flatten() {
-            let t = r.t as f32;
-            if r.is_inside() && t > 0.0 && t < limit {
-                limit = found(RawHit { t, id: raw_id, u: r.u as f32, v: r.v as f32 });
-            }
-        }
-        limit
+        hit_bilinear(&self.bilinear(id / 2), raw_id, ray, t_max, found)
     }
+}
+
+/// Offers the points of the ray on a patch as those of number `id`; returns the last limit.
+#[inline(always)]
+fn hit_bilinear(
+    patch: &Bilinear,
+    id: u32,
+    ray: &Ray,
+    t_max: f32,
+    found: &mut (impl FnMut(RawHit) -> f32 + ?Sized),
+) -> f32 {
+    let mut limit = t_max;
+    for r in patch.roots(ray.o.to_f64(), ray.d.to_f64()).into_iter().flatten() {
+        let t = r.t as f32;
+        if r.is_inside() && t > 0.0 && t < limit {
+            limit = found(RawHit { t, id, u: r.u as f32, v: r.v as f32 });
+        }
+    }
+    limit
 }
 
 /// The patch has an area.

@@ -3,6 +3,7 @@
 
 mod build;
 mod curves;
+mod deforming;
 mod exact;
 mod instances;
 mod many;

@@ -5,6 +5,7 @@
 mod binary;
 mod bins;
 mod collapse;
+mod motion;
 mod prim;
 mod spatial;
 
@@ -36,40 +37,77 @@ fn overlap(prims: &[PrimRef], area: f32) -> f32 {
     parts.iter().sum::<f32>() / area
 }
 
-impl Bvh {
-    /// Builds the tree over `prims`; `corners` gives the corners of the triangles among them.
-    pub(crate) fn build(mut prims: Vec<PrimRef>, corners: impl Fn(u32) -> [[f32; 3]; 3] + Sync) -> Bvh {
-        let unit = Unit::choose();
+/// A wide tree, and the numbers of the primitives in the order of its leaves.
+struct Tree {
+    ids: Vec<u32>,
+    wide: Wide,
+    root: Child,
+    bounds: Aabb,
+}
+
+impl Tree {
+    /// `None` where there is nothing to build it over. Triangles may be cut where their `corners` are given.
+    fn of<C>(mut prims: Vec<PrimRef>, corners: Option<&C>) -> Option<Tree>
+    where
+        C: Fn(u32) -> [[f32; 3]; 3] + Sync,
+    {
         if prims.is_empty() {
-            let (nodes, triangles) = (Pages::zeroed(0), Pages::zeroed(0));
-            return Bvh { nodes, triangles, root: Child::NONE, bounds: Aabb::EMPTY, unit };
+            return None;
         }
         let extent = Extent::of(&prims);
         let mut tree = Binary::default();
         let area = extent.bounds.half_area();
-        if overlap(&prims, area) > MAX_OVERLAP {
-            let spare = (prims.len() as f64 * MAX_COPIES) as usize;
-            let spatial = Spatial { corners: &corners, area };
-            spatial.add(&mut tree, References { prims, spare }, extent, 0);
-        } else {
-            tree.add(Range { prims: &mut prims, extent }, 0);
-            drop(prims);
+        match corners {
+            Some(corners) if overlap(&prims, area) > MAX_OVERLAP => {
+                let spare = (prims.len() as f64 * MAX_COPIES) as usize;
+                let spatial = Spatial { corners, area };
+                spatial.add(&mut tree, References { prims, spare }, extent, 0);
+            }
+            _ => {
+                tree.add(Range { prims: &mut prims, extent }, 0);
+                drop(prims);
+            }
         }
         let mut wide = Wide::default();
         let root = wide.add(&Plan::new(&tree), 0, 0, 0);
         debug_assert!(wide.stack <= STACK_SIZE, "depth is limited");
-
-        let mut triangles = Pages::zeroed(wide.triangles.len());
-        triangles.par_iter_mut().zip(&wide.triangles).for_each(|(block, place)| {
-            *block = TriBlock::empty();
-            let &(first, len) = place;
-            let ids = &tree.ids[first as usize..first as usize + usize::from(len)];
-            for (i, &id) in ids.iter().enumerate() {
-                block.set(i, id, &corners(id));
-            }
+        Some(Tree { ids: tree.ids, wide, root, bounds: extent.bounds.to_aabb() })
+    }
+    /// Leaves that hold triangles.
+    fn n_blocks(&self) -> usize {
+        self.wide.triangles.len()
+    }
+    /// The triangles of such a leaf.
+    fn ids_of(&self, block: usize) -> &[u32] {
+        let (first, len) = self.wide.triangles[block];
+        &self.ids[first as usize..first as usize + usize::from(len)]
+    }
+    /// Fills blocks, each with the triangles of its leaf by `set`.
+    fn gather<B: Send>(
+        &self,
+        blocks: &mut [B],
+        empty: impl Fn() -> B + Sync,
+        set: impl Fn(&mut B, usize, u32) + Sync,
+    ) {
+        blocks.par_iter_mut().enumerate().for_each(|(n, block)| {
+            *block = empty();
+            self.ids_of(n).iter().enumerate().for_each(|(i, &id)| set(block, i, id));
         });
-        let mut nodes = Pages::zeroed(wide.nodes.len());
-        nodes.copy_from_slice(&wide.nodes);
-        Bvh { nodes, triangles, root, bounds: extent.bounds.to_aabb(), unit }
+    }
+}
+
+impl Bvh {
+    /// Builds the tree over `prims`; `corners` gives the corners of the triangles among them.
+    pub(crate) fn build(prims: Vec<PrimRef>, corners: impl Fn(u32) -> [[f32; 3]; 3] + Sync) -> Bvh {
+        let unit = Unit::choose();
+        let Some(tree) = Tree::of(prims, Some(&corners)) else {
+            let (nodes, triangles) = (Pages::zeroed(0), Pages::zeroed(0));
+            return Bvh { nodes, triangles, root: Child::NONE, bounds: Aabb::EMPTY, unit };
+        };
+        let mut triangles = Pages::zeroed(tree.n_blocks());
+        tree.gather(&mut triangles, TriBlock::empty, |block, i, id| block.set(i, id, &corners(id)));
+        let mut nodes = Pages::zeroed(tree.wide.nodes.len());
+        nodes.copy_from_slice(&tree.wide.nodes);
+        Bvh { nodes, triangles, root: tree.root, bounds: tree.bounds, unit }
     }
 }

@@ -51,11 +51,17 @@ pub(crate) struct PrimRef {
 /// Makes a number of less than 30 bits a normal float: arithmetic on others may be slow.
 const NORMAL: u32 = 1 << 30;
 
+/// A box, widened by what a triangle test may err that starts from far corners.
+pub(super) fn widened(b: Aabb) -> Aabb {
+    let pad = Vec3::splat(4.0 * f32::EPSILON * b.extent().max_component());
+    Aabb { lo: b.lo - pad, hi: b.hi + pad }
+}
+
 impl PrimRef {
-    /// A primitive with its box, widened by what a triangle test may err that starts from far corners.
+    /// A primitive with its box, [`widened`].
     pub(crate) fn new(id: u32, b: Aabb, kind: Kind) -> PrimRef {
-        let pad = Vec3::splat(4.0 * f32::EPSILON * b.extent().max_component());
-        PrimRef::pack((b.lo - pad).to_array(), (b.hi + pad).to_array(), id, kind)
+        let b = widened(b);
+        PrimRef::pack(b.lo.to_array(), b.hi.to_array(), id, kind)
     }
     fn pack(lo: [f32; 3], hi: [f32; 3], id: u32, kind: Kind) -> PrimRef {
         let with = |[x, y, z]: [f32; 3], bits: u32| [x, y, z, f32::from_bits(bits | NORMAL)];

@@ -1,6 +1,11 @@
 //! Triangle meshes: corners, surface, and drawing points.
 
-use sparrow_math::{Aabb, Frame, Vec3, warp};
+mod corners;
+mod deforming;
+
+use corners::{Corners, double_area, mix};
+pub(crate) use deforming::DeformingTriangles;
+use sparrow_math::{Aabb, Vec3, warp};
 
 use crate::bvh::gamma;
 use crate::point::{ShapeSample, SurfacePoint};
@@ -20,12 +25,6 @@ pub(crate) struct Triangles {
     flip: bool,
 }
 
-/// The weighted sum of three vectors.
-#[inline(always)]
-fn mix(b: [f32; 3], p: [Vec3<f32>; 3]) -> Vec3<f32> {
-    p[0] * b[0] + p[1] * b[1] + p[2] * b[2]
-}
-
 /// The value of a list at three places.
 #[inline(always)]
 fn pick(list: &[[f32; 3]], at: [u32; 3]) -> [Vec3<f32>; 3] {
@@ -33,47 +32,14 @@ fn pick(list: &[[f32; 3]], at: [u32; 3]) -> [Vec3<f32>; 3] {
     [p(0), p(1), p(2)]
 }
 
-/// `a b - c d`, where the two sides may cancel.
+/// Texture coordinates of three corners; of a mesh that has none, pbrt-v4's.
 #[inline(always)]
-fn difference(a: f32, b: Vec3<f32>, c: f32, d: Vec3<f32>) -> Vec3<f32> {
-    b * a - d * c
-}
-
-/// Twice the area, times the unit normal; exact enough for slivers.
-#[inline(always)]
-fn double_area(p: [Vec3<f32>; 3]) -> Vec3<f64> {
-    let [a, b, c] = p.map(Vec3::to_f64);
-    (b - a).cross(c - a)
-}
-
-/// Derivatives by texture coordinates, or what to use where these have none.
-struct Parametrisation {
-    uv: [[f32; 2]; 3],
-    duv: [[f32; 2]; 2],
-    determinant: f32,
-}
-
-impl Parametrisation {
-    fn new(uv: [[f32; 2]; 3]) -> Parametrisation {
-        let d = |i: usize| [uv[i][0] - uv[2][0], uv[i][1] - uv[2][1]];
-        let duv = [d(0), d(1)];
-        let determinant = duv[0][0] * duv[1][1] - duv[0][1] * duv[1][0];
-        Parametrisation { uv, duv, determinant }
+fn texture_coordinates(uv: &[[f32; 2]], at: [u32; 3]) -> [[f32; 2]; 3] {
+    if uv.is_empty() {
+        return [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]];
     }
-    fn is_degenerate(&self) -> bool {
-        self.determinant.abs() < 1e-9
-    }
-    /// Derivatives by u and v of what takes the values `a` at the corners.
-    fn derivatives(&self, a: [Vec3<f32>; 3]) -> (Vec3<f32>, Vec3<f32>) {
-        let (a0, a1) = (a[0] - a[2], a[1] - a[2]);
-        let [d0, d1] = self.duv;
-        let inv = 1.0 / self.determinant;
-        (difference(d1[1], a0, d0[1], a1) * inv, difference(d0[0], a1, d1[0], a0) * inv)
-    }
-    fn at(&self, b: [f32; 3]) -> [f32; 2] {
-        let of = |k: usize| b[0] * self.uv[0][k] + b[1] * self.uv[1][k] + b[2] * self.uv[2][k];
-        [of(0), of(1)]
-    }
+    let uv = |i: usize| uv[at[i] as usize];
+    [uv(0), uv(1), uv(2)]
 }
 
 impl Triangles {
@@ -105,9 +71,6 @@ impl Triangles {
         let p = |i: usize| self.mesh.p[at[i] as usize];
         [p(0), p(1), p(2)]
     }
-    fn corners(&self, prim: u32) -> [Vec3<f32>; 3] {
-        self.raw_corners(prim).map(Vec3::from)
-    }
     /// The box of a triangle; `None` where it cannot be hit.
     pub(crate) fn bounds(&self, prim: u32) -> Option<Aabb> {
         let p = self.usable_corners(prim)?;
@@ -126,95 +89,29 @@ impl Triangles {
     pub(crate) fn area(&self, prim: u32) -> f32 {
         self.usable_corners(prim).map_or(0.0, |p| (0.5 * double_area(p).length()) as f32)
     }
-    fn parametrisation(&self, at: [u32; 3]) -> Parametrisation {
-        Parametrisation::new(if self.mesh.uv.is_empty() {
-            [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]]
-        } else {
-            let uv = |i: usize| self.mesh.uv[at[i] as usize];
-            [uv(0), uv(1), uv(2)]
-        })
+    /// A triangle with what its corners carry.
+    #[inline(always)]
+    fn with_corners(&self, prim: u32) -> Corners {
+        let (m, at) = (&self.mesh, self.mesh.indices[prim as usize]);
+        let of = |list: &[[f32; 3]]| (!list.is_empty()).then(|| pick(list, at));
+        Corners { p: pick(&m.p, at), n: of(&m.n), s: of(&m.s), uv: texture_coordinates(&m.uv, at) }
     }
-    /// The interpolated shading normal, where the mesh has one.
-    fn shading_normal(&self, at: [u32; 3], b: [f32; 3]) -> Option<Vec3<f32>> {
-        if self.mesh.n.is_empty() {
-            return None;
-        }
-        let n = mix(b, pick(&self.mesh.n, at));
-        (n.length2() > 0.0).then(|| n.normalized())
-    }
-    /// The geometric normal, on the side of the shading normal or as the orientation says.
-    fn normal(&self, p: [Vec3<f32>; 3], ns: Option<Vec3<f32>>) -> Vec3<f32> {
-        let n = double_area(p).normalized().to_f32();
-        let n = if self.flip { -n } else { n };
-        ns.map_or(n, |ns| n.facing(ns))
-    }
-
     /// The surface at a hit; meanings as in pbrt-v4.
     pub(crate) fn surface(&self, hit: &Hit) -> SurfacePoint {
-        let at = self.mesh.indices[hit.prim as usize];
-        let p = self.corners(hit.prim);
-        let b = [1.0 - hit.u - hit.v, hit.u, hit.v];
-        let map = self.parametrisation(at);
-        let (mut dpdu, mut dpdv) = map.derivatives(p);
-        let skew = dpdu.cross(dpdv).length2();
-        if map.is_degenerate() || skew == 0.0 || !skew.is_finite() {
-            let frame = Frame::from_z(-double_area(p).normalized().to_f32());
-            (dpdu, dpdv) = (frame.x, frame.y);
-        }
-        let shading = self.shading_normal(at, b);
-        let ng = self.normal(p, shading);
-        let ns = shading.unwrap_or(ng);
-        let mut tangent = dpdu;
-        if !self.mesh.s.is_empty() {
-            let s = mix(b, pick(&self.mesh.s, at));
-            tangent = if s.length2() > 0.0 { s } else { dpdu };
-        }
-        if shading.is_some() || !self.mesh.s.is_empty() {
-            let t = ns.cross(tangent);
-            tangent = if t.length2() > 0.0 { t.cross(ns) } else { Frame::from_z(ns).x };
-        }
-        SurfacePoint {
-            p: mix(b, p),
-            p_error: mix(b.map(f32::abs), p.map(Vec3::abs)) * gamma(7),
-            ng,
-            ns,
-            dpdu,
-            dpdv,
-            uv: map.at(b),
-            tangent,
-            shape: hit.shape,
-            prim: hit.prim,
-            time: 0.0,
-        }
+        self.with_corners(hit.prim).surface(self.flip, hit)
     }
-
     /// Derivatives of the interpolated normal; its change of length is not taken out, as in pbrt-v4.
     pub(crate) fn normal_derivatives(&self, hit: &Hit) -> (Vec3<f32>, Vec3<f32>) {
-        let zero = Vec3::splat(0.0);
-        if self.mesh.n.is_empty() {
-            return (zero, zero);
-        }
-        let at = self.mesh.indices[hit.prim as usize];
-        let map = self.parametrisation(at);
-        let n = pick(&self.mesh.n, at);
-        if !map.is_degenerate() {
-            return map.derivatives(n);
-        }
-        let around = (n[2] - n[0]).cross(n[1] - n[0]);
-        if around.length2() == 0.0 {
-            return (zero, zero);
-        }
-        let frame = Frame::from_z(around.normalized());
-        (frame.x, frame.y)
+        self.with_corners(hit.prim).normal_derivatives()
     }
 
     /// A point given by the weights of its corners, drawn with density `pdf` per area.
     fn sample_at(&self, prim: u32, p: [Vec3<f32>; 3], b: [f32; 3], pdf: f32) -> ShapeSample {
-        let at = self.mesh.indices[prim as usize];
+        let corners = self.with_corners(prim);
         ShapeSample {
             p: mix(b, p),
             p_error: mix(b.map(f32::abs), p.map(Vec3::abs)) * gamma(6),
-            n: self.normal(p, self.shading_normal(at, b)),
+            n: corners.normal(corners.shading_normal(b), self.flip),
             wi: Vec3::splat(0.0),
             distance: 0.0,
             pdf,

@@ -1,0 +1,121 @@
+//! Shapes whose points move, each in a straight line of its own: [`Deforming`].
+//!
+//! A ray meets the shape whose points lie where they are at the ray's time, rounded to single precision once; all that is
+//! worked out from them then is what it is for a shape that stands there. In the tree over everything such a shape is one
+//! primitive, with a tree of its own over the boxes of both ends of the motion. What stands still knows nothing of this.
+
+use sparrow_math::{Aabb, Vec3};
+
+use crate::bvh::{Others, RawHit};
+use crate::curve::DeformingCurves;
+use crate::patch::DeformingPatches;
+use crate::point::SurfacePoint;
+use crate::ray::{Hit, Ray};
+use crate::shape::Shape;
+use crate::triangle::DeformingTriangles;
+
+/// A shape that deforms, ready to be asked.
+#[derive(Debug)]
+pub(crate) enum Deforming {
+    Triangles(DeformingTriangles),
+    Patches(DeformingPatches),
+    Curves(DeformingCurves),
+}
+
+/// Asked of primitives that are not triangles where all are.
+pub(crate) struct NoOthers;
+
+impl Others for NoOthers {
+    fn hit(&self, _: u32, _: &Ray, t_max: f32, _: &mut impl FnMut(RawHit) -> f32) -> f32 {
+        t_max
+    }
+}
+
+/// Calls one function or the other, whichever shape it is.
+macro_rules! each {
+    ($self:ident, $s:ident => $e:expr) => {
+        match $self {
+            Deforming::Triangles($s) => $e,
+            Deforming::Patches($s) => $e,
+            Deforming::Curves($s) => $e,
+        }
+    };
+}
+
+impl Deforming {
+    /// The shape, if it has points where motion ends for all that it has at the start; else it is given back.
+    pub(crate) fn new(shape: Shape, flip: bool) -> Result<Deforming, Shape> {
+        match shape {
+            Shape::Triangles(m) if !m.p.is_empty() && m.p_end.len() == m.p.len() => {
+                Ok(Deforming::Triangles(DeformingTriangles::new(m, flip)))
+            }
+            Shape::Patches(m) if !m.p.is_empty() && m.p_end.len() == m.p.len() => {
+                Ok(Deforming::Patches(DeformingPatches::new(m, flip)))
+            }
+            Shape::Curves(c) if !c.points.is_empty() && c.points_end.len() == c.points.len() => {
+                Ok(Deforming::Curves(DeformingCurves::new(c)))
+            }
+            other => Err(other),
+        }
+    }
+    /// Primitives.
+    pub(crate) fn len(&self) -> usize {
+        each!(self, s => s.len())
+    }
+    /// Primitives that cannot be hit.
+    pub(crate) fn dropped(&self) -> usize {
+        each!(self, s => s.dropped())
+    }
+    /// The box around all that the shape passes; empty where nothing of it can be hit.
+    pub(crate) fn bounds(&self) -> Aabb {
+        each!(self, s => s.tree().bounds())
+    }
+    pub(crate) fn n_nodes(&self) -> usize {
+        each!(self, s => s.tree().n_nodes())
+    }
+    /// Bytes of the tree.
+    pub(crate) fn tree_bytes(&self) -> usize {
+        each!(self, s => s.tree().bytes())
+    }
+    /// Bytes without the tree.
+    pub(crate) fn bytes(&self) -> usize {
+        each!(self, s => s.bytes())
+    }
+    /// Area of a primitive where motion starts.
+    pub(crate) fn area(&self, prim: u32) -> f32 {
+        each!(self, s => s.area(prim))
+    }
+
+    /// Offers the points of the ray on the shape, which the tree numbers from `first`; returns the last limit.
+    // Compiled once, whatever waits for the hits.
+    #[inline(never)]
+    pub(crate) fn hit(&self, first: u32, ray: &Ray, t_max: f32, found: &mut dyn FnMut(RawHit) -> f32) -> f32 {
+        let (ray, mut last) = (&Ray { t_max, ..*ray }, t_max);
+        let mut found = |h: RawHit| {
+            last = found(RawHit { id: first + h.id, ..h });
+            last
+        };
+        match self {
+            Deforming::Triangles(m) => m.tree().visit(ray, &NoOthers, &mut found),
+            Deforming::Patches(m) => m.tree().visit(ray, m, &mut found),
+            Deforming::Curves(c) => c.visit(ray, &mut found),
+        }
+        last
+    }
+    /// The surface at a hit, at the ray's time.
+    pub(crate) fn surface(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
+        match self {
+            Deforming::Triangles(m) => m.surface(ray, hit),
+            Deforming::Patches(m) => m.surface(ray, hit),
+            Deforming::Curves(c) => c.surface(ray, hit),
+        }
+    }
+    /// Derivatives of the shading normal, at the ray's time.
+    pub(crate) fn normal_derivatives(&self, ray: &Ray, hit: &Hit) -> (Vec3<f32>, Vec3<f32>) {
+        match self {
+            Deforming::Triangles(m) => m.normal_derivatives(ray, hit),
+            Deforming::Patches(m) => m.normal_derivatives(ray, hit),
+            Deforming::Curves(_) => Default::default(),
+        }
+    }
+}
