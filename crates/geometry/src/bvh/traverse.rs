@@ -198,7 +198,9 @@ impl<const ANY: bool, O: Others, P: FnMut(usize, Option<RawHit>)> Kernel for Wal
         let mut corners = packet::room::<S>();
         for (n, rays) in self.rays.chunks(packet::RAYS).enumerate() {
             let (mut found, mut alone) = ([None; packet::RAYS], u32::MAX);
-            if let (Some(few), Ok(rays)) = (self.few, rays.try_into()) {
+            if let (Some(few), Ok(rays)) = (self.few, rays.try_into())
+                && packet::pays::<S>(rays)
+            {
                 (found, alone) = packet::hit::<S, ANY>(few, rays, self.others, &mut corners);
             }
             for (i, (ray, found)) in rays.iter().zip(&mut found).enumerate() {

@@ -44,6 +44,7 @@ fn in_avx2<K: Kernel>(kernel: K) -> K::Output {
 struct Avx2;
 
 impl Simd for Avx2 {
+    const EIGHT_IN_ONE: bool = true;
     type F4 = f32x4;
     type F8 = F8;
 }

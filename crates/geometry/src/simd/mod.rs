@@ -45,6 +45,8 @@ pub(crate) trait Floats<const N: usize>:
 
 /// A vector unit: its registers of four and of eight numbers.
 pub(crate) trait Simd {
+    /// Eight numbers fill one register.
+    const EIGHT_IN_ONE: bool;
     type F4: Floats<4>;
     type F8: Floats<8>;
 }

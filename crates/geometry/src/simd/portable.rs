@@ -9,6 +9,7 @@ use super::{Floats, Simd};
 pub(crate) struct Portable;
 
 impl Simd for Portable {
+    const EIGHT_IN_ONE: bool = false;
     type F4 = f32x4;
     type F8 = f32x8;
 }
