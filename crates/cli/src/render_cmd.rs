@@ -5,8 +5,8 @@ use std::time::{Duration, Instant};
 
 use sparrow_render::film::{self, Film};
 use sparrow_render::{
-    Compiled, RenderOptions, RenderPlan, RenderStats, Scene, Strategies, compile, render, render_strategies,
-    render_to_noise,
+    Compiled, RenderOptions, RenderPlan, RenderStats, Scene, Strategies, compile_observed, render,
+    render_strategies, render_to_noise,
 };
 use sparrow_scene::{Diagnostic, FilmDesc, SceneDesc, Span};
 
@@ -15,8 +15,8 @@ use crate::failure::{self, DONE, Failure, INTERRUPTED, Remark};
 use crate::output::Picture;
 use crate::paths::{self, Outputs};
 use crate::process::{Usage, available_memory};
-use crate::progress::Watch;
-use crate::report::{Outcome, Stats, Status, Times, bytes, clock, si};
+use crate::progress::{BuildWatch, Watch};
+use crate::report::{Memory, Outcome, Stats, Status, Times, bytes, clock, si};
 use crate::{adaptive, console, images, interrupt, overrides, strategies};
 
 /// Renders, and gives the exit code.
@@ -71,6 +71,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<u8, Failure> {
     };
     stats.usage = Usage::now();
     log.line(&ending(&out, &stats));
+    log.line(&format!("memory: {}", stats.memory));
     stats.notes = log.notes;
     hand_over(args, &out, &stats, &warnings)?;
     Ok(exit_code(status))
@@ -191,7 +192,10 @@ fn build(
     stats.mis = plan.integrator.mis.to_string();
     stats.sampler_notes = plan.sampler.notes();
     stats.sampler_notes.iter().for_each(|n| log.line(&format!("note: {n}")));
-    let Compiled { scene, notes } = compile(desc).map_err(|e| refused(e.0))?;
+    let watch = BuildWatch::new(args.quiet);
+    let compiled = compile_observed(desc, Some(&|p| watch.update(p)));
+    watch.finish();
+    let Compiled { scene, notes } = compiled.map_err(|e| refused(e.0))?;
     notes.into_iter().for_each(|n| log.note(n));
     Ok((scene, plan))
 }
@@ -263,6 +267,7 @@ fn fill(stats: &mut Stats, scene: &Scene, film_bytes: usize, did: &RenderStats) 
     stats.materials = scene.n_materials();
     stats.scene_bytes = scene.bytes();
     stats.film_bytes = film_bytes;
+    stats.memory = Memory::new(&scene.geometry().stats().bytes, scene.image_bytes(), film_bytes);
     Ok(status)
 }
 

@@ -1,7 +1,9 @@
 //! What a render did, for machines and for people: [`Stats`], [`Outcome`], and how numbers are written.
 
+use std::fmt;
+
 use serde::Serialize;
-use sparrow_geometry::BuildStats;
+use sparrow_geometry::{BuildBytes, BuildStats};
 use sparrow_render::RayCounts;
 use sparrow_scene::SceneDesc;
 
@@ -52,11 +54,51 @@ impl From<BuildStats> for Accelerator {
     fn from(s: BuildStats) -> Accelerator {
         Accelerator {
             build_seconds: s.build_seconds,
-            bytes: s.bytes,
+            bytes: s.bytes.total(),
             nodes: s.nodes,
             primitives: s.primitives,
             dropped_primitives: s.dropped,
         }
+    }
+}
+
+/// Memory by what it holds, in bytes.
+#[derive(Clone, Copy, Debug, Default, Serialize)]
+pub(crate) struct Memory {
+    triangles: usize,
+    patches: usize,
+    curves: usize,
+    quadrics: usize,
+    instances: usize,
+    hierarchy: usize,
+    images: usize,
+    film: usize,
+}
+
+impl Memory {
+    pub(crate) fn new(geometry: &BuildBytes, images: usize, film: usize) -> Memory {
+        let BuildBytes { triangles, patches, curves, quadrics, instances, hierarchy } = *geometry;
+        Memory { triangles, patches, curves, quadrics, instances, hierarchy, images, film }
+    }
+}
+
+/// What takes memory, the most first.
+impl fmt::Display for Memory {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut all = [
+            ("triangles", self.triangles),
+            ("patches", self.patches),
+            ("curves", self.curves),
+            ("quadrics", self.quadrics),
+            ("instances", self.instances),
+            ("hierarchy", self.hierarchy),
+            ("images", self.images),
+            ("film", self.film),
+        ];
+        all.sort_by_key(|&(_, n)| core::cmp::Reverse(n));
+        let used = all.iter().filter(|&&(_, n)| n > 0);
+        let each: Vec<String> = used.map(|&(name, n)| format!("{name} {}", bytes(n as u64))).collect();
+        f.write_str(&each.join(", "))
     }
 }
 
@@ -111,6 +153,7 @@ pub(crate) struct Stats {
     /// Geometry, its hierarchy and images.
     pub(crate) scene_bytes: usize,
     pub(crate) film_bytes: usize,
+    pub(crate) memory: Memory,
     pub(crate) warnings: usize,
     pub(crate) sampler_notes: Vec<String>,
     pub(crate) notes: Vec<String>,
@@ -151,6 +194,7 @@ impl Stats {
             materials: 0,
             scene_bytes: 0,
             film_bytes: 0,
+            memory: Memory::default(),
             warnings: desc.warnings.len(),
             sampler_notes: Vec::new(),
             notes: Vec::new(),
@@ -201,6 +245,13 @@ pub(crate) fn clock(seconds: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn memory_is_listed_by_size() {
+        let geometry = BuildBytes { triangles: 2048, hierarchy: 5 << 20, ..BuildBytes::default() };
+        let memory = Memory::new(&geometry, 0, 100);
+        assert_eq!(memory.to_string(), "hierarchy 5.0 MiB, triangles 2.0 KiB, film 100 B");
+    }
 
     #[test]
     fn numbers_are_short() {

@@ -150,7 +150,7 @@ mod fur {
                 flip_normal: false,
             }]);
             let (seconds, stats) = (cpu_seconds() - start, geometry.stats());
-            let megabytes = 1e-6 * stats.bytes as f64;
+            let megabytes = 1e-6 * stats.bytes.total() as f64;
             println!("  built in {seconds:.3} s: {} nodes, {megabytes:.1} MB with the points", stats.nodes);
             #[cfg_attr(
                 not(feature = "embree"),

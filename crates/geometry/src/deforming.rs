@@ -8,8 +8,10 @@ use sparrow_math::{Aabb, Vec3};
 
 use crate::bvh::{Others, RawHit};
 use crate::curve::DeformingCurves;
+use crate::geometry::BuildBytes;
 use crate::patch::DeformingPatches;
 use crate::point::SurfacePoint;
+use crate::progress::Progress;
 use crate::ray::{Hit, Ray};
 use crate::shape::Shape;
 use crate::triangle::DeformingTriangles;
@@ -44,16 +46,16 @@ macro_rules! each {
 
 impl Deforming {
     /// The shape, if it has points where motion ends for all that it has at the start; else it is given back.
-    pub(crate) fn new(shape: Shape, flip: bool) -> Result<Deforming, Shape> {
+    pub(crate) fn new(shape: Shape, flip: bool, progress: &Progress) -> Result<Deforming, Shape> {
         match shape {
             Shape::Triangles(m) if !m.p.is_empty() && m.p_end.len() == m.p.len() => {
-                Ok(Deforming::Triangles(DeformingTriangles::new(m, flip)))
+                Ok(Deforming::Triangles(DeformingTriangles::new(m, flip, progress)))
             }
             Shape::Patches(m) if !m.p.is_empty() && m.p_end.len() == m.p.len() => {
-                Ok(Deforming::Patches(DeformingPatches::new(m, flip)))
+                Ok(Deforming::Patches(DeformingPatches::new(m, flip, progress)))
             }
             Shape::Curves(c) if !c.points.is_empty() && c.points_end.len() == c.points.len() => {
-                Ok(Deforming::Curves(DeformingCurves::new(c)))
+                Ok(Deforming::Curves(DeformingCurves::new(c, progress)))
             }
             other => Err(other),
         }
@@ -73,13 +75,14 @@ impl Deforming {
     pub(crate) fn n_nodes(&self) -> usize {
         each!(self, s => s.tree().n_nodes())
     }
-    /// Bytes of the tree.
-    pub(crate) fn tree_bytes(&self) -> usize {
-        each!(self, s => s.tree().bytes())
-    }
-    /// Bytes without the tree.
-    pub(crate) fn bytes(&self) -> usize {
-        each!(self, s => s.bytes())
+    /// Adds the memory of the shape to what it belongs to.
+    pub(crate) fn add_bytes(&self, to: &mut BuildBytes) {
+        match self {
+            Deforming::Triangles(m) => to.triangles += m.bytes(),
+            Deforming::Patches(m) => to.patches += m.bytes(),
+            Deforming::Curves(c) => to.curves += c.bytes(),
+        }
+        to.hierarchy += each!(self, s => s.tree().bytes());
     }
     /// Area of a primitive where motion starts.
     pub(crate) fn area(&self, prim: u32) -> f32 {

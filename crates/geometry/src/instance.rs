@@ -216,9 +216,13 @@ impl Instances {
     pub(crate) fn len(&self) -> usize {
         self.placed.len() + self.moving.len()
     }
+    /// Bytes of the places.
     pub(crate) fn bytes(&self) -> usize {
-        let trees = self.prototypes.iter().map(Bvh::bytes).sum::<usize>();
-        trees + size_of_val(&*self.placed) + size_of_val(&*self.moving)
+        size_of_val(&*self.placed) + size_of_val(&*self.moving)
+    }
+    /// Bytes of the prototypes' trees.
+    pub(crate) fn tree_bytes(&self) -> usize {
+        self.prototypes.iter().map(Bvh::bytes).sum()
     }
     pub(crate) fn n_nodes(&self) -> usize {
         self.prototypes.iter().map(Bvh::n_nodes).sum()

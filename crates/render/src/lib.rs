@@ -29,7 +29,7 @@ mod spectrum;
 mod texture;
 
 pub use adaptive::render_to_noise;
-pub use compile::{CompileError, Compiled, compile};
+pub use compile::{CompileError, Compiled, compile, compile_observed};
 pub use integrator::{Finder, PathIntegrator, RayCounts, Record};
 pub use observe::{Strategies, Technique};
 pub use plan::{FilmSensor, RenderPlan};

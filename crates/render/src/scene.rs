@@ -62,7 +62,11 @@ impl Scene {
     }
     /// Memory of geometry and images, in bytes.
     pub fn bytes(&self) -> usize {
-        self.geometry.stats().bytes + self.textures.bytes()
+        self.geometry.stats().bytes.total() + self.image_bytes()
+    }
+    /// Memory of images, in bytes.
+    pub fn image_bytes(&self) -> usize {
+        self.textures.bytes()
     }
 
     /// The nearest surface along a ray.

@@ -181,3 +181,31 @@ fn grooms_of_other_programs_are_read() {
         assert_eq!(a[..3], b[..3]);
     }
 }
+
+/// Points, widths and normals of the end are made as those of the start are.
+#[test]
+fn curves_go_where_their_end_says() {
+    let c = one(&format!(
+        "Shape \"curve\" {P4} \"point3 P_end\" [0 0 1  1 0 1  2 1 1  3 1 1] \"float width_end\" 3"
+    ));
+    assert!(near(c.points[3], [3.0, 1.0, 0.0, 0.5]) && near(c.points_end[3], [3.0, 1.0, 1.0, 1.5]));
+    // Widths alone may change, and what is not said of them stays.
+    let c =
+        one(&format!("Shape \"curve\" {P4} \"float width0\" 4 \"float width1\" 2 \"float width1_end\" 0"));
+    assert!(near(c.points_end[0], [0.0, 0.0, 0.0, 2.0]) && near(c.points_end[3], [3.0, 1.0, 0.0, 0.0]));
+    let ends = "\"point3 P_end\" [0 0 1  1 0 1] \"vector3 T_end\" [0 3 0  0 3 0]";
+    let c = one(&format!(
+        "Shape \"curve\" \"string basis\" \"hermite\" \"point3 P\" [0 0 0  1 0 0] \"vector3 T\" [3 0 0  3 0 0] {ends}"
+    ));
+    assert!(near(c.points[1], [1.0, 0.0, 0.0, 0.5]) && near(c.points_end[1], [0.0, 1.0, 1.0, 0.5]));
+    let ribbon = "\"string type\" \"ribbon\" \"normal N\" [0 0 1  0 1 0] \"normal N_end\" [1 0 0  0 1 0]";
+    let c = one(&format!("Shape \"curve\" {P4} {ribbon}"));
+    assert_eq!((c.normals_end.len(), c.points_end.as_slice()), (2, c.points.as_slice()));
+    // A strand that moves does not join one that stands.
+    let s = scene(&format!(
+        "Shape \"curve\" {P4} Shape \"curve\" {P4} \"float width_end\" 3 Shape \"curve\" {P4} \"float width_end\" 2"
+    ));
+    assert_eq!((s.shapes.len(), curves(&s, 0).strands.len(), curves(&s, 1).strands.len()), (2, 1, 2));
+    assert_eq!(curves(&s, 1).points_end.len(), 8);
+    assert!(s.shapes[1].kind.deforms() && !s.shapes[0].kind.deforms());
+}

@@ -164,3 +164,36 @@ fn a_missing_scene_or_one_in_utf16_is_refused() {
     let main = f.write("main.pbrt", b"\xff\xfeW\0o\0r\0l\0d\0");
     assert!(f.faults(&main).starts_with("main.pbrt: the file is UTF-16; save it as UTF-8"));
 }
+
+#[test]
+fn meshes_and_strands_go_from_file_to_file() {
+    let f = Folder::new("motion");
+    f.write("a.ply", TRIANGLE);
+    f.write("b.ply", TRIANGLE.replace("0 1 0\n3", "0 1 5\n3"));
+    f.write("turned.ply", TRIANGLE.replace("3 0 1 2", "3 0 2 1"));
+    f.write("larger.ply", TRIANGLE.replace("vertex 3", "vertex 4").replace("0 1 0\n3", "0 1 0\n2 2 2\n3"));
+    f.write("a.txt", "0 0 0 .1\n1 0 0 .1\n\n0 1 0 .1\n1 1 0 .1\n");
+    f.write("b.txt", "0 0 1 .2\n1 0 1 .2\n\n0 1 1 .2\n1 1 1 .2\n");
+    f.write("short.txt", "0 0 1 .2\n1 0 1 .2\n2 0 1 .2\n\n1 1 1 .2\n1 1 1 .2\n");
+    let moving = |shape: &str, end: &str| {
+        let start = if shape == "hair" { "a.txt" } else { "a.ply" };
+        let file = format!("\"string filename\" \"{start}\" \"string filename_end\" \"{end}\"");
+        let basis = if shape == "hair" { "\"string basis\" \"linear\"" } else { "" };
+        f.write("main.pbrt", format!("WorldBegin\nShape \"{shape}\" {basis}\n{file}"))
+    };
+    let s = read(&moving("plymesh", "b.ply")).unwrap();
+    let ShapeKind::Mesh(mesh) = &s.shapes[0].kind else { unreachable!() };
+    assert_eq!((mesh.p[2], mesh.p_end[2], mesh.p_end.len()), ([0.0, 1.0, 0.0], [0.0, 1.0, 5.0], 3));
+    let s = read(&moving("hair", "b.txt")).unwrap();
+    let ShapeKind::Curves(c) = &s.shapes[0].kind else { unreachable!() };
+    assert_eq!((c.points[3], c.points_end[3]), ([1.0, 1.0, 0.0, 0.1], [1.0, 1.0, 1.0, 0.2]));
+    for (shape, end, fault) in [
+        ("plymesh", "turned.ply", "\"turned.ply\" has other faces than \"a.ply\"; both ends"),
+        ("plymesh", "larger.ply", "\"larger.ply\" has 4 vertices and \"a.ply\" 3; both ends"),
+        ("plymesh", "none.ply", "\"none.ply\" cannot be read, there is no such file"),
+        ("hair", "short.txt", "\"short.txt\" has 2 strands with 5 points and \"a.txt\" 2 with 4"),
+    ] {
+        let said = f.faults(&moving(shape, end));
+        assert!(said.starts_with("main.pbrt:3:") && said.contains(fault), "{said}");
+    }
+}

@@ -102,6 +102,12 @@ fn json_and_stats_hold_what_they_promise() {
     let accelerator = &stats["acceleration_structure"];
     assert_eq!(accelerator["primitives"], 4);
     assert!(accelerator["bytes"].as_u64().unwrap() > 0 && accelerator["build_seconds"].is_number());
+    let bytes = |name: &str| stats["memory"][name].as_u64().unwrap();
+    let shapes: u64 = ["triangles", "patches", "curves", "quadrics", "instances"].map(bytes).iter().sum();
+    assert_eq!(accelerator["bytes"].as_u64().unwrap(), shapes + bytes("hierarchy"));
+    assert_eq!(stats["scene_bytes"].as_u64().unwrap(), shapes + bytes("hierarchy") + bytes("images"));
+    assert_eq!(stats["film_bytes"].as_u64().unwrap(), bytes("film"));
+    assert!(ran.err.contains("\nmemory: ") && ran.err.contains("hierarchy "), "{ran:?}");
     if cfg!(target_os = "linux") {
         assert!(stats["peak_memory_bytes"].as_u64().unwrap() > 1 << 20, "{stats}");
         assert!(stats["cpu_seconds"].as_f64().unwrap() > 0.0, "{stats}");

@@ -29,7 +29,7 @@ pub(crate) fn run(mesh: TriangleMesh, n: usize, rounds: usize, resolution: usize
     let start = cpu_seconds();
     let geometry = Geometry::build_instanced(vec![], vec![prototype], instances);
     let (seconds, stats) = (cpu_seconds() - start, geometry.stats());
-    let bytes = stats.bytes as f64;
+    let bytes = stats.bytes.total() as f64;
     println!("  built in {seconds:.2} s: {:.0} MB, {:.0} bytes an instance", 1e-6 * bytes, bytes / n as f64);
     let peak = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let peak = peak.lines().find(|l| l.starts_with("VmHWM")).unwrap_or_default().to_owned();

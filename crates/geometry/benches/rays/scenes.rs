@@ -60,7 +60,7 @@ impl Scene {
         let start = cpu_seconds();
         let geometry = Geometry::build(vec![instance]);
         let (seconds, stats) = (cpu_seconds() - start, geometry.stats());
-        let megabytes = 1e-6 * stats.bytes as f64;
+        let megabytes = 1e-6 * stats.bytes.total() as f64;
         println!("  built in {seconds:.3} s: {} nodes, {megabytes:.1} MB with the mesh", stats.nodes);
         let mut tracers: Vec<Box<dyn Tracer + '_>> =
             vec![Box::new(Single(&geometry)), Box::new(Many(&geometry))];

@@ -2,6 +2,7 @@
 
 use super::node::Kind;
 use super::{Bvh, Others, PrimRef, RawHit};
+use crate::progress::Progress;
 use crate::ray::Ray;
 use crate::simd::{Floats, Kernel, Simd, Unit};
 use sparrow_math::{Aabb, Vec3, vec3};
@@ -37,7 +38,8 @@ fn tree(rng: &mut Rng, n: u32) -> Bvh {
         if i.is_multiple_of(2) { [p(0), p(1), p(2)] } else { [p(2), p(1), p(0)] }
     };
     let bounds = |i: u32| corners(i).into_iter().fold(Aabb::EMPTY, |b, p| b.grow(p.into()));
-    Bvh::build((0..n).map(|i| PrimRef::new(i, bounds(i), Kind::Triangles)).collect(), corners)
+    let prims = (0..n).map(|i| PrimRef::new(i, bounds(i), Kind::Triangles)).collect();
+    Bvh::build(prims, corners, &Progress::new(None, 0))
 }
 
 /// Every unit finds the same point, to the bit; the list of triangles has each twice, so that the order counts too.

@@ -14,6 +14,7 @@ use crate::bvh::{Kind, MotionBvh, Others, Pages, RawHit};
 use crate::instance::padded;
 use crate::lerp::Lerp;
 use crate::point::SurfacePoint;
+use crate::progress::Progress;
 use crate::ray::{Hit, Ray};
 use crate::shape::{CurveKind, CurveSet};
 use crate::simd::Unit;
@@ -65,7 +66,7 @@ fn boxes(ends: &[Cubic; 2], u: [f32; 2]) -> [Aabb; 2] {
 impl DeformingCurves {
     /// Takes curves with `points_end` as long as `points`. Ribbons without a normal for every end of a segment become flat; those
     /// where motion ends stay as at the start where they are not as many.
-    pub(crate) fn new(mut set: CurveSet) -> DeformingCurves {
+    pub(crate) fn new(mut set: CurveSet, progress: &Progress) -> DeformingCurves {
         let strands = Strands::new(&mut set);
         let n = strands.n_segments();
         let (split, kind) = (split_of(&set, n), kind_of(&set, n));
@@ -91,7 +92,8 @@ impl DeformingCurves {
             let (segment, u) = part_of(piece, split);
             boxes(&ends(segment), u)
         };
-        let tree = MotionBvh::build_motion(Kind::Others, &pieces, boxes, |_| [[[f32::NAN; 3]; 3]; 2]);
+        let none = |_| [[[f32::NAN; 3]; 3]; 2];
+        let tree = MotionBvh::build_motion(Kind::Others, &pieces, boxes, none, progress);
         let dropped = n - usable.len();
         DeformingCurves { strands, end, kind, normals, split, tree, dropped, unit: Unit::choose() }
     }

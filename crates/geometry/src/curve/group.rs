@@ -6,6 +6,7 @@ use sparrow_math::Aabb;
 use super::cubic::Cubic;
 use super::obb::{ObbBlock, WIDTH};
 use super::strands::Strands;
+use crate::progress::Progress;
 
 /// Bins an axis.
 const BINS: usize = 16;
@@ -74,11 +75,36 @@ pub(super) fn pieces(strands: &Strands, split: u32) -> (Vec<Piece>, usize) {
 }
 
 /// Puts pieces into blocks; each with the box around it.
-pub(super) fn blocks(pieces: &mut [Piece], make: &(impl Fn(u32) -> Cubic + Sync)) -> Vec<(Aabb, ObbBlock)> {
-    cut(pieces, 0, make)
+pub(super) fn blocks(
+    pieces: &mut [Piece],
+    make: &(impl Fn(u32) -> Cubic + Sync),
+    progress: &Progress,
+) -> Vec<(Aabb, ObbBlock)> {
+    told(pieces, 0, make, progress)
 }
 
-fn cut(pieces: &mut [Piece], depth: u32, make: &(impl Fn(u32) -> Cubic + Sync)) -> Vec<(Aabb, ObbBlock)> {
+/// Cuts a part that another thread may work on, and tells what has its place.
+fn told(
+    pieces: &mut [Piece],
+    depth: u32,
+    make: &(impl Fn(u32) -> Cubic + Sync),
+    progress: &Progress,
+) -> Vec<(Aabb, ObbBlock)> {
+    let n = pieces.len();
+    let blocks = cut(pieces, depth, make, progress);
+    // Of more, their parts were told.
+    if n <= PARALLEL {
+        progress.add(n);
+    }
+    blocks
+}
+
+fn cut(
+    pieces: &mut [Piece],
+    depth: u32,
+    make: &(impl Fn(u32) -> Cubic + Sync),
+    progress: &Progress,
+) -> Vec<(Aabb, ObbBlock)> {
     let n = pieces.len();
     if n <= WIDTH {
         let around = pieces.iter().fold(Aabb::EMPTY, |b, p| b.union(p.bounds));
@@ -101,9 +127,9 @@ fn cut(pieces: &mut [Piece], depth: u32, make: &(impl Fn(u32) -> Cubic + Sync)) 
     let mid = if mid == 0 || mid == n { n / 2 } else { mid };
     let (a, b) = pieces.split_at_mut(mid);
     let (mut a, b) = if n > PARALLEL {
-        rayon::join(|| cut(a, depth + 1, make), || cut(b, depth + 1, make))
+        rayon::join(|| told(a, depth + 1, make, progress), || told(b, depth + 1, make, progress))
     } else {
-        (cut(a, depth + 1, make), cut(b, depth + 1, make))
+        (cut(a, depth + 1, make, progress), cut(b, depth + 1, make, progress))
     };
     a.extend(b);
     a

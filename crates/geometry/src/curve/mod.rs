@@ -23,6 +23,7 @@ use strands::Strands;
 use strip::Width;
 
 use crate::bvh::{Pages, RawHit};
+use crate::progress::Progress;
 use crate::ray::Ray;
 use crate::shape::{CurveKind, CurveSet};
 use crate::simd::{Unit, prefetch};
@@ -67,7 +68,7 @@ fn kind_of(set: &CurveSet, n: usize) -> CurveKind {
 
 impl Curves {
     /// Takes curves. Ribbons without a normal for every end of a segment become flat.
-    pub(crate) fn new(mut set: CurveSet) -> Curves {
+    pub(crate) fn new(mut set: CurveSet, progress: &Progress) -> Curves {
         let strands = Strands::new(&mut set);
         let n = strands.n_segments();
         let split = split_of(&set, n);
@@ -79,7 +80,7 @@ impl Curves {
             let c = strands.cubic(segment);
             if split == 0 { c } else { c.part(u) }
         };
-        let (bounds, blocks): (_, Vec<_>) = group::blocks(&mut pieces, &make).into_iter().unzip();
+        let (bounds, blocks): (_, Vec<_>) = group::blocks(&mut pieces, &make, progress).into_iter().unzip();
         Curves { strands, kind, normals, split, blocks: blocks.into(), bounds, dropped, unit: Unit::choose() }
     }
     /// Segments.
@@ -95,10 +96,11 @@ impl Curves {
         self.dropped
     }
     pub(crate) fn bytes(&self) -> usize {
-        self.strands.bytes()
-            + size_of_val(&*self.normals)
-            + size_of_val(&*self.blocks)
-            + size_of_val(&*self.bounds)
+        self.strands.bytes() + size_of_val(&*self.normals)
+    }
+    /// Bytes of the boxes.
+    pub(crate) fn tree_bytes(&self) -> usize {
+        size_of_val(&*self.blocks) + size_of_val(&*self.bounds)
     }
     /// Boxes of what the tree holds.
     pub(crate) fn blocks(&self) -> &[Aabb] {
@@ -281,7 +283,8 @@ mod tests {
                 split_depth: 1,
                 ..CurveSet::default()
             };
-            let (mut portable, mut best) = (Curves::new(set()), Curves::new(set()));
+            let none = &Progress::new(None, 0);
+            let (mut portable, mut best) = (Curves::new(set(), none), Curves::new(set(), none));
             assert_eq!(portable.kind, kind);
             (portable.unit, best.unit) = (Unit::named("portable"), Unit::named(""));
             let mut hits = 0;

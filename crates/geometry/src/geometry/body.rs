@@ -3,11 +3,13 @@
 use rayon::prelude::*;
 use sparrow_math::Aabb;
 
+use super::BuildBytes;
 use crate::bvh::{Kind, MAX_PRIMS, Others, PrimRef, RawHit};
 use crate::curve::Curves;
 use crate::deforming::Deforming;
 use crate::instance::padded;
 use crate::patch::{Part, Patches};
+use crate::progress::Progress;
 use crate::quadric::Quadric;
 use crate::ray::{Hit, Ray};
 use crate::shape::{Shape, ShapeInstance};
@@ -26,15 +28,15 @@ pub(super) enum Body {
 }
 
 impl Body {
-    pub(super) fn new(s: ShapeInstance) -> Body {
-        let shape = match Deforming::new(s.shape, s.flip_normal) {
+    pub(super) fn new(s: ShapeInstance, progress: &Progress) -> Body {
+        let shape = match Deforming::new(s.shape, s.flip_normal, progress) {
             Ok(deforming) => return Body::Deforming(Box::new(deforming)),
             Err(shape) => shape,
         };
         match shape {
             Shape::Triangles(m) => Body::Triangles(Triangles::new(m, s.flip_normal)),
             Shape::Patches(m) => Body::Patches(Patches::new(m, s.flip_normal)),
-            Shape::Curves(c) => Body::Curves(Curves::new(c)),
+            Shape::Curves(c) => Body::Curves(Curves::new(c, progress)),
             quadric @ (Shape::Sphere { .. } | Shape::Disk { .. } | Shape::Cylinder { .. }) => {
                 Body::Quadric(Quadric::new(&quadric, &s.to_world, s.flip_normal).map(Box::new))
             }
@@ -59,13 +61,17 @@ impl Body {
             Body::Deforming(d) => d.len(),
         }
     }
-    pub(super) fn bytes(&self) -> usize {
+    /// Adds the memory of the shape to what it belongs to.
+    pub(super) fn add_bytes(&self, to: &mut BuildBytes) {
         match self {
-            Body::Triangles(m) => m.bytes(),
-            Body::Patches(m) => m.bytes(),
-            Body::Curves(c) => c.bytes(),
-            Body::Quadric(_) => size_of::<Quadric>(),
-            Body::Deforming(d) => d.bytes() + d.tree_bytes(),
+            Body::Triangles(m) => to.triangles += m.bytes(),
+            Body::Patches(m) => to.patches += m.bytes(),
+            Body::Curves(c) => {
+                to.curves += c.bytes();
+                to.hierarchy += c.tree_bytes();
+            }
+            Body::Quadric(_) => to.quadrics += size_of::<Quadric>(),
+            Body::Deforming(d) => d.add_bytes(to),
         }
     }
     /// Nodes of a hierarchy of its own.

@@ -2,32 +2,50 @@
 
 mod body;
 mod query;
+mod stats;
 
 use std::time::Instant;
 
 use body::{Bodies, Body};
 use sparrow_math::{Aabb, Vec3};
+pub use stats::{BuildBytes, BuildStats};
 
 use crate::bvh::{Bvh, Few, MAX_PRIMS};
 use crate::instance::{Instance, Instances, MovingInstance};
 use crate::point::{ShapeSample, SurfacePoint};
+use crate::progress::{BuildObserver, Progress};
 use crate::ray::{Hit, Ray};
 use crate::sample::{Viewpoint, per_steradian};
-use crate::shape::ShapeInstance;
+use crate::shape::{Shape, ShapeInstance};
 
-/// What building cost and gave.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct BuildStats {
-    /// Primitives that can be hit.
-    pub primitives: usize,
-    /// Primitives left out: without area, with coordinates that are not finite, or with vertices that do not exist.
-    pub dropped: usize,
-    /// Nodes of the hierarchy.
-    pub nodes: usize,
-    /// Bytes held by shapes and hierarchy together.
-    pub bytes: usize,
-    /// Time taken, in seconds.
-    pub build_seconds: f64,
+/// What a geometry is built from.
+#[derive(Debug, Default)]
+pub struct GeometryParts {
+    /// Shapes of the world.
+    pub shapes: Vec<ShapeInstance>,
+    /// Groups of shapes, each in a space of its own, that stand wherever instances place them.
+    pub prototypes: Vec<Vec<ShapeInstance>>,
+    /// Where they stand.
+    pub instances: Vec<Instance>,
+    /// Where they move, numbered on from those that stand.
+    pub moving: Vec<MovingInstance>,
+}
+
+impl GeometryParts {
+    /// What has to be placed in trees; of curves, their pieces and the blocks of eight that these fill.
+    fn n_to_place(&self) -> usize {
+        let of = |s: &ShapeInstance| match &s.shape {
+            Shape::Triangles(m) => m.indices.len(),
+            Shape::Patches(m) => m.indices.len(),
+            Shape::Curves(c) => {
+                let pieces = c.points.len() << c.split_depth.min(2);
+                pieces + pieces.div_ceil(8)
+            }
+            Shape::Sphere { .. } | Shape::Disk { .. } | Shape::Cylinder { .. } => 1,
+        };
+        let shapes = self.shapes.iter().chain(self.prototypes.iter().flatten());
+        shapes.map(of).sum::<usize>() + self.instances.len() + self.moving.len()
+    }
 }
 
 /// Shapes with a hierarchy over them. Immutable; shared freely between threads.
@@ -70,40 +88,50 @@ impl Geometry {
         instances: Vec<Instance>,
         moving: Vec<MovingInstance>,
     ) -> Geometry {
+        Geometry::build_observed(GeometryParts { shapes, prototypes, instances, moving }, None)
+    }
+    /// The same, and tells how far it is.
+    pub fn build_observed(parts: GeometryParts, observer: Option<BuildObserver<'_>>) -> Geometry {
         let start = Instant::now();
+        let progress = &Progress::new(observer, parts.n_to_place());
+        let GeometryParts { shapes, prototypes, mut instances, mut moving } = parts;
         let sizes: Vec<usize> = prototypes.iter().map(Vec::len).collect();
         let n_world = shapes.len();
-        let bodies = shapes.into_iter().chain(prototypes.into_iter().flatten()).map(Body::new).collect();
-        let (bodies, n_ids) = Bodies::new(bodies);
+        let all = shapes.into_iter().chain(prototypes.into_iter().flatten());
+        let (bodies, n_ids) = Bodies::new(all.map(|s| Body::new(s, progress)).collect());
         let (mut refs, mut dropped) = bodies.refs(0..n_world);
         let (mut trees, mut next) = (Vec::with_capacity(sizes.len()), n_world);
         for n in sizes {
             let (refs, lost) = bodies.refs(next..next + n);
-            trees.push(Bvh::build(refs, |id| bodies.corners(id)));
+            trees.push(Bvh::build(refs, |id| bodies.corners(id), progress));
             dropped += lost;
             next += n;
         }
-        let (mut instances, mut moving) = (instances, moving);
         let n_places = instances.len() + moving.len();
         instances.truncate(MAX_PRIMS - n_ids);
         moving.truncate(MAX_PRIMS - n_ids - instances.len());
         dropped += n_places - instances.len() - moving.len();
         let (instances, first_instance) = (Instances::new(trees, instances, moving), n_ids as u32);
         dropped += instances.refs(first_instance, &mut refs);
-        let bvh = Bvh::build(refs, |id| bodies.corners(id));
-        let n_prims = bodies.bodies.iter().map(Body::n_prims).sum::<usize>() + instances.len();
-        let bytes = bvh.bytes() + instances.bytes() + bodies.bodies.iter().map(Body::bytes).sum::<usize>();
+        let bvh = Bvh::build(refs, |id| bodies.corners(id), progress);
+        let bodies_of = &bodies.bodies;
+        let n_prims = bodies_of.iter().map(Body::n_prims).sum::<usize>() + instances.len();
+        let mut bytes = BuildBytes {
+            instances: instances.bytes(),
+            hierarchy: bvh.bytes() + instances.tree_bytes(),
+            ..BuildBytes::default()
+        };
+        bodies_of.iter().for_each(|b| b.add_bytes(&mut bytes));
         let stats = BuildStats {
             primitives: n_prims.saturating_sub(dropped),
             dropped,
-            nodes: bvh.n_nodes()
-                + instances.n_nodes()
-                + bodies.bodies.iter().map(Body::n_nodes).sum::<usize>(),
+            nodes: bvh.n_nodes() + instances.n_nodes() + bodies_of.iter().map(Body::n_nodes).sum::<usize>(),
             bytes,
             build_seconds: start.elapsed().as_secs_f64(),
         };
         let alone = instances.len() == 0;
         let few = alone.then(|| Few::new(&bvh, |id| bodies.ball(id))).flatten();
+        progress.finish();
         Geometry { bodies, instances, first_instance, bvh, few, stats }
     }
 

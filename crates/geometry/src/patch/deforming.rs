@@ -6,6 +6,7 @@ use super::{Bilinear, Patches, hit_bilinear};
 use crate::bvh::{Kind, MotionBvh, Others, RawHit};
 use crate::lerp::Lerp;
 use crate::point::SurfacePoint;
+use crate::progress::Progress;
 use crate::ray::{Hit, Ray};
 use crate::shape::BilinearMesh;
 
@@ -33,7 +34,7 @@ fn usable(mesh: &BilinearMesh, prim: u32) -> Option<[[[f32; 3]; 4]; 2]> {
 
 impl DeformingPatches {
     /// Takes a mesh with `p_end` as long as `p`; other lists of a length that does not fit are dropped.
-    pub(crate) fn new(mut mesh: BilinearMesh, flip: bool) -> DeformingPatches {
+    pub(crate) fn new(mut mesh: BilinearMesh, flip: bool, progress: &Progress) -> DeformingPatches {
         let n = mesh.p.len();
         for list in [&mut mesh.n, &mut mesh.n_end] {
             if list.len() != n {
@@ -50,7 +51,7 @@ impl DeformingPatches {
             corners.map(|p| p.into_iter().fold(Aabb::EMPTY, |b, p| b.grow(p.into())))
         };
         let none = |_| [[[f32::NAN; 3]; 3]; 2];
-        let tree = MotionBvh::build_motion(Kind::Others, &ids, boxes, none);
+        let tree = MotionBvh::build_motion(Kind::Others, &ids, boxes, none, progress);
         let dropped = all as usize - ids.len();
         DeformingPatches { mesh, flip, tree, dropped }
     }

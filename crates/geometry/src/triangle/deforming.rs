@@ -6,6 +6,7 @@ use super::{Corners, double_area, pick, texture_coordinates};
 use crate::bvh::{Kind, MotionBvh};
 use crate::lerp::Lerp;
 use crate::point::SurfacePoint;
+use crate::progress::Progress;
 use crate::ray::{Hit, Ray};
 use crate::shape::TriangleMesh;
 
@@ -32,7 +33,7 @@ fn usable(mesh: &TriangleMesh, prim: u32) -> Option<[[[f32; 3]; 3]; 2]> {
 
 impl DeformingTriangles {
     /// Takes a mesh with `p_end` as long as `p`; other lists of a length that does not fit are dropped.
-    pub(crate) fn new(mut mesh: TriangleMesh, flip: bool) -> DeformingTriangles {
+    pub(crate) fn new(mut mesh: TriangleMesh, flip: bool, progress: &Progress) -> DeformingTriangles {
         let n = mesh.p.len();
         for list in [&mut mesh.n, &mut mesh.n_end, &mut mesh.s] {
             if list.len() != n {
@@ -46,7 +47,7 @@ impl DeformingTriangles {
         let ids: Vec<u32> = (0..all).filter(|&i| usable(&mesh, i).is_some()).collect();
         let corners = |i: u32| usable(&mesh, i).unwrap_or([[[f32::NAN; 3]; 3]; 2]);
         let boxes = |i: u32| corners(i).map(|p| p.into_iter().fold(Aabb::EMPTY, |b, p| b.grow(p.into())));
-        let tree = MotionBvh::build_motion(Kind::Triangles, &ids, boxes, corners);
+        let tree = MotionBvh::build_motion(Kind::Triangles, &ids, boxes, corners, progress);
         let dropped = all as usize - ids.len();
         DeformingTriangles { mesh, flip, tree, dropped }
     }

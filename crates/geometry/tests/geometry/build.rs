@@ -1,6 +1,9 @@
 //! Trees over odd inputs, and over the same input.
 
-use sparrow_geometry::{BilinearMesh, Geometry, Hit, Ray, Shape, ShapeInstance, TriangleMesh};
+use sparrow_geometry::{
+    BilinearMesh, BuildProgress, CurveBasis, CurveSet, Geometry, GeometryParts, Hit, Ray, Shape,
+    ShapeInstance, TriangleMesh,
+};
 use sparrow_math::{Transform, Vec3, vec3};
 
 use super::{Rng, at, patches, placed, quadrics, triangles};
@@ -157,4 +160,44 @@ fn threads_do_not_matter() {
     assert_eq!(one.1, two.1);
     assert!(one.1.iter().flatten().count() > 50);
     assert!(one.0 == two.0, "the trees differ");
+}
+
+/// An observer hears of everything, of nothing twice, and changes nothing.
+#[test]
+fn builds_tell_how_far_they_are() {
+    let make = || {
+        let mut rng = Rng(9);
+        let points: Vec<[f32; 4]> = (0..20_000)
+            .map(|_| {
+                let [x, y, z] = rng.point();
+                [x, y, z, 0.001]
+            })
+            .collect();
+        let strands = (0..1000).map(|i| i * 20).collect();
+        let curves = CurveSet { points, strands, basis: CurveBasis::BSpline, ..CurveSet::default() };
+        let shapes = vec![triangles(&mut rng, 40_000, 0.03), placed(Shape::Curves(curves))];
+        GeometryParts { shapes, ..GeometryParts::default() }
+    };
+    let heard = std::sync::Mutex::new(Vec::new());
+    let told = |p: BuildProgress| heard.lock().unwrap().push((p.placed, p.total));
+    let g = Geometry::build_observed(make(), Some(&told));
+    let mut heard = heard.into_inner().unwrap();
+    let total = heard[0].1;
+    assert_eq!(heard.last(), Some(&(total, total)));
+    assert!(
+        heard.len() > 10 && heard.iter().all(|&(placed, all)| placed <= all && all == total),
+        "{heard:?}"
+    );
+    // Strands have fewer segments than points; the estimate is near.
+    heard.pop();
+    let most = heard.iter().map(|h| h.0).max().unwrap();
+    assert!(most * 10 > total * 9, "{most} of {total}");
+    let silent = Geometry::build_observed(make(), None);
+    assert_eq!(shoot(&g), shoot(&silent));
+    let bytes = g.stats().bytes;
+    assert!(
+        bytes.triangles >= 40_000 * 48 && bytes.curves >= 20_000 * 16 && bytes.hierarchy > 0,
+        "{bytes:?}"
+    );
+    assert_eq!((bytes, bytes.patches + bytes.quadrics + bytes.instances), (silent.stats().bytes, 0));
 }

@@ -2,7 +2,7 @@
 
 mod parts;
 
-use sparrow_geometry::Geometry;
+use sparrow_geometry::{BuildObserver, Geometry};
 use sparrow_mis::Mis;
 use sparrow_scene::{FloatTexture, FloatTextureId, SceneDesc, ShapeDesc, SpectrumTexture, TextureFilter};
 
@@ -32,15 +32,26 @@ pub struct Compiled {
 ///
 /// # Errors
 /// Images that cannot be read and settings that contradict each other, all at once.
-pub fn compile(mut desc: SceneDesc) -> Result<Compiled, CompileError> {
+pub fn compile(desc: SceneDesc) -> Result<Compiled, CompileError> {
+    compile_observed(desc, None)
+}
+
+/// The same, and tells how far the hierarchy is, which takes nearly all of the time.
+///
+/// # Errors
+/// As [`compile`].
+pub fn compile_observed(
+    mut desc: SceneDesc,
+    observer: Option<BuildObserver<'_>>,
+) -> Result<Compiled, CompileError> {
     let (mut faults, mut notes) = (Vec::new(), Vec::new());
     let mut textures = Textures::new(&desc, &mut faults);
     let (materials, index) = compile_materials(&desc, &mut textures, &mut faults);
     let is_seen = |s: &ShapeDesc| index[s.material.0 as usize].is_some() || s.area_light.is_some();
-    let Parts { shapes, prototypes, instances, moving, materials: shape_materials, emitters, alpha } =
+    let Parts { geometry, materials: shape_materials, emitters, alpha, deforms } =
         Parts::new(&mut desc, is_seen);
-    let moves = desc.camera.moves_to.is_some() || !moving.is_empty();
-    let geometry = Geometry::build_moving(shapes, prototypes, instances, moving);
+    let moves = desc.camera.moves_to.is_some() || !geometry.moving.is_empty() || deforms;
+    let geometry = Geometry::build_observed(geometry, observer);
     let dropped = geometry.stats().dropped;
     if dropped > 0 {
         notes.push(format!(

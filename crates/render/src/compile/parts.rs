@@ -4,7 +4,7 @@ use core::mem::take;
 use std::sync::Arc;
 
 use sparrow_geometry::{
-    BilinearMesh, CurveSet, Instance, MovingInstance, Shape, ShapeInstance, TriangleMesh,
+    BilinearMesh, CurveSet, GeometryParts, Instance, MovingInstance, Shape, ShapeInstance, TriangleMesh,
 };
 use sparrow_math::{Motion, Real, Transform, Vec3};
 use sparrow_scene::{
@@ -15,13 +15,12 @@ use sparrow_scene::{
 /// What the geometry is built from, and what belongs to each of its shapes, those of the world before those of prototypes.
 #[derive(Default)]
 pub(super) struct Parts {
-    pub(super) shapes: Vec<ShapeInstance>,
-    pub(super) prototypes: Vec<Vec<ShapeInstance>>,
-    pub(super) instances: Vec<Instance>,
-    pub(super) moving: Vec<MovingInstance>,
+    pub(super) geometry: GeometryParts,
     pub(super) materials: Vec<MaterialId>,
     pub(super) emitters: Vec<Option<AreaLightId>>,
     pub(super) alpha: Vec<Option<FloatTextureId>>,
+    /// Points of some shape move.
+    pub(super) deforms: bool,
 }
 
 impl Parts {
@@ -48,20 +47,20 @@ impl Parts {
             let in_world = |s: ShapeDesc| ShapeDesc { to_world: to_world.then_first(&s.to_world), ..s };
             shapes.into_iter().filter(&is_seen).for_each(|s| parts.push(in_world(s)));
         }
-        let n_world = parts.shapes.len();
+        let n_world = parts.geometry.shapes.len();
         for (prototype, &n) in prototypes.into_iter().zip(&n_places) {
             let shapes = if n > 0 { prototype.shapes } else { Vec::new() };
             shapes.into_iter().filter(&is_seen).for_each(|s| parts.push(s));
-            let shapes = parts.shapes.split_off(n_world);
-            parts.prototypes.push(shapes);
+            let shapes = parts.geometry.shapes.split_off(n_world);
+            parts.geometry.prototypes.push(shapes);
         }
         for i in placed {
             // An instance of nothing has no box, and would count as dropped.
-            if parts.prototypes[i.prototype.0 as usize].is_empty() {
+            if parts.geometry.prototypes[i.prototype.0 as usize].is_empty() {
                 continue;
             }
             match i.moves_to {
-                None => parts.instances.push(instance(&i)),
+                None => parts.geometry.instances.push(instance(&i)),
                 Some(end) => parts.push_moving(&i.to_world, &end, i.prototype.0),
             }
         }
@@ -71,7 +70,7 @@ impl Parts {
 
     fn push_moving(&mut self, start: &Transform, end: &Transform, prototype: u32) {
         let motion = Motion::new(start, end);
-        self.moving.extend(motion.map(|motion| MovingInstance { motion, prototype }));
+        self.geometry.moving.extend(motion.map(|motion| MovingInstance { motion, prototype }));
     }
 
     /// Shapes that move, as prototypes of their own: one for each run of shapes that move alike.
@@ -81,12 +80,12 @@ impl Parts {
             let Some(end) = s.moves_to else { continue };
             if last != Some((s.to_world, end)) {
                 last = Some((s.to_world, end));
-                self.push_moving(&s.to_world, &end, self.prototypes.len() as u32);
-                self.prototypes.push(Vec::new());
+                self.push_moving(&s.to_world, &end, self.geometry.prototypes.len() as u32);
+                self.geometry.prototypes.push(Vec::new());
             }
             self.push(ShapeDesc { to_world: Transform::IDENTITY, ..s });
-            let pushed = self.shapes.split_off(n_world);
-            if let Some(prototype) = self.prototypes.last_mut() {
+            let pushed = self.geometry.shapes.split_off(n_world);
+            if let Some(prototype) = self.geometry.prototypes.last_mut() {
                 prototype.extend(pushed);
             }
         }
@@ -94,6 +93,7 @@ impl Parts {
 
     /// Adds a shape, in the space that its `to_world` leads to.
     fn push(&mut self, mut s: ShapeDesc) {
+        self.deforms |= s.kind.deforms();
         let flip = s.reverse_orientation != s.to_world.swaps_handedness();
         let radians = f32::to_radians;
         let kind = core::mem::replace(&mut s.kind, ShapeKind::Mesh(Arc::default()));
@@ -119,7 +119,7 @@ impl Parts {
     }
 
     fn push_shape(&mut self, shape: Shape, to_world: Transform, flip_normal: bool, of: &ShapeDesc) {
-        self.shapes.push(ShapeInstance { shape, to_world, flip_normal });
+        self.geometry.shapes.push(ShapeInstance { shape, to_world, flip_normal });
         self.materials.push(of.material);
         self.emitters.push(of.area_light);
         self.alpha.push(of.alpha);
@@ -133,27 +133,30 @@ impl Parts {
             let map = |v: &mut [f32; 3], f: &dyn Fn(Vec3<f64>) -> Vec3<f64>| {
                 *v = f(Vec3::from(*v).to_f64()).to_f32().to_array();
             };
-            mesh.p.iter_mut().for_each(|v| map(v, &|p| s.to_world.point(p)));
-            mesh.n.iter_mut().for_each(|v| map(v, &|n| s.to_world.normal(n).normalized()));
+            let (p, n) = (mesh.p.iter_mut().chain(&mut mesh.p_end), mesh.n.iter_mut().chain(&mut mesh.n_end));
+            p.for_each(|v| map(v, &|p| s.to_world.point(p)));
+            n.for_each(|v| map(v, &|n| s.to_world.normal(n).normalized()));
             mesh.s.iter_mut().for_each(|v| map(v, &|t| s.to_world.vector(t).normalized()));
         }
         if s.reverse_orientation {
-            mesh.n.iter_mut().for_each(|n| *n = n.map(|c| -c));
+            mesh.n.iter_mut().chain(&mut mesh.n_end).for_each(|n| *n = n.map(|c| -c));
         }
-        let Mesh { p, n, s: tangents, uv, triangles, patches } = mesh;
-        if !patches.is_empty() {
-            let patches = if triangles.is_empty() {
-                BilinearMesh { p, indices: patches, n, uv }
+        let Mesh { p, n, s: tangents, uv, triangles, patches, p_end, n_end } = mesh;
+        let patches = BilinearMesh { p, indices: patches, n, uv, p_end, n_end };
+        let patches = if triangles.is_empty() {
+            patches
+        } else {
+            let (rest, BilinearMesh { p, n, uv, p_end, n_end, .. }) = if patches.indices.is_empty() {
+                (BilinearMesh::default(), patches)
             } else {
-                let both = BilinearMesh { p: p.clone(), indices: patches, n: n.clone(), uv: uv.clone() };
-                let tri = TriangleMesh { p, indices: triangles, n, s: tangents, uv };
-                self.push_shape(Shape::Triangles(tri), Transform::IDENTITY, flip, s);
-                both
+                (patches.clone(), patches)
             };
-            self.push_shape(Shape::Patches(patches), Transform::IDENTITY, flip, s);
-        } else if !triangles.is_empty() {
-            let tri = TriangleMesh { p, indices: triangles, n, s: tangents, uv };
+            let tri = TriangleMesh { p, indices: triangles, n, s: tangents, uv, p_end, n_end };
             self.push_shape(Shape::Triangles(tri), Transform::IDENTITY, flip, s);
+            rest
+        };
+        if !patches.indices.is_empty() {
+            self.push_shape(Shape::Patches(patches), Transform::IDENTITY, flip, s);
         }
     }
 }
@@ -166,15 +169,23 @@ fn instance(i: &InstanceDesc) -> Instance {
 
 /// Curves in the space that shapes stand in. Of an uneven scaling radii get the mean, so that sections stay round.
 fn curve_set(curves: Arc<Curves>, to_world: &Transform) -> CurveSet {
-    let Curves { mut points, strands, basis, kind, mut normals, split_depth } =
-        Arc::try_unwrap(curves).unwrap_or_else(|shared| (*shared).clone());
+    let Curves {
+        mut points,
+        strands,
+        basis,
+        kind,
+        mut normals,
+        split_depth,
+        mut points_end,
+        mut normals_end,
+    } = Arc::try_unwrap(curves).unwrap_or_else(|shared| (*shared).clone());
     if !to_world.is_identity() {
         let scale = Real::pow(to_world.determinant().abs(), 1.0 / 3.0) as f32;
-        for [x, y, z, r] in &mut points {
+        for [x, y, z, r] in points.iter_mut().chain(&mut points_end) {
             let p = to_world.point(Vec3 { x: *x, y: *y, z: *z }.to_f64()).to_f32();
             [*x, *y, *z, *r] = [p.x, p.y, p.z, *r * scale];
         }
-        for n in &mut normals {
+        for n in normals.iter_mut().chain(&mut normals_end) {
             *n = to_world.normal(Vec3::from(*n).to_f64()).normalized().to_f32().to_array();
         }
     }
@@ -190,5 +201,5 @@ fn curve_set(curves: Arc<Curves>, to_world: &Transform) -> CurveSet {
         CurveKind::Ribbon => sparrow_geometry::CurveKind::Ribbon,
         CurveKind::Round => sparrow_geometry::CurveKind::Round,
     };
-    CurveSet { points, strands, basis, kind, normals, split_depth }
+    CurveSet { points, strands, basis, kind, normals, split_depth, points_end, normals_end }
 }

@@ -1,7 +1,5 @@
 //! Curves: from parameters and from files of strands.
 
-use std::path::Path;
-
 use super::Builder;
 use crate::curve_files::{self, CurveFile};
 use crate::desc::{CurveBasis, CurveKind, Curves, ShapeKind};
@@ -33,6 +31,33 @@ const DEFAULT_SPLIT: i32 = 1;
 const MAX_SPLIT: i32 = 2;
 
 type Point = [f32; 3];
+
+/// What the parameters of one end of the motion are called.
+struct Names {
+    p: &'static str,
+    t: &'static str,
+    n: &'static str,
+    width: &'static str,
+    width0: &'static str,
+    width1: &'static str,
+}
+
+const START: Names = Names { p: "P", t: "T", n: "N", width: "width", width0: "width0", width1: "width1" };
+const END: Names = Names {
+    p: "P_end",
+    t: "T_end",
+    n: "N_end",
+    width: "width_end",
+    width0: "width0_end",
+    width1: "width1_end",
+};
+
+impl Names {
+    /// One of them is given.
+    fn given(&self, params: &Params) -> bool {
+        [self.p, self.t, self.n, self.width, self.width0, self.width1].iter().any(|name| params.has(name))
+    }
+}
 
 /// The Bezier points of a curve of degree 2: each segment is raised to degree 3.
 fn raised(p: &[Point]) -> Vec<Point> {
@@ -74,36 +99,71 @@ impl Builder {
     /// The strand of a `curve`.
     pub(super) fn curve(&mut self, params: &mut Params) -> Option<Curves> {
         let kind = self.curve_kind(params, CurveKind::Flat)?;
-        let (basis, p) = self.control_points(params)?;
+        let n_given = params.triples("P").len();
+        let (basis, p) = self.control_points(params, &START)?;
         let n = basis.n_segments(p.len());
-        let widths = self.widths(params)?.unwrap_or([1.0; 2]);
-        let normals = params.take_triples("N", Type::Normal);
-        let normals_at = params.place("N");
-        if kind == CurveKind::Ribbon && normals.len() != n + 1 {
-            let message = format!(
-                "the ribbon has {n} segments and {} normals; give {} in \"normal N\", one for each end of a segment",
-                normals.len(),
-                n + 1
-            );
-            self.report.error(normals_at, message);
-            return None;
-        }
-        if kind != CurveKind::Ribbon && !normals.is_empty() {
-            self.report.warn(normals_at, "only curves of type \"ribbon\" take normals; \"N\" is ignored");
-        }
-        let points =
-            p.iter().enumerate().map(|(j, &[x, y, z])| [x, y, z, taper(widths, basis, j, n)]).collect();
-        Some(Curves {
-            points,
+        let widths = self.widths(params, &START, [1.0; 2])?;
+        let normals = self.ribbon_normals(params, &START, kind, n)?.unwrap_or_default();
+        let with_radii = |p: &[Point], widths: [f32; 2]| {
+            let point = |(j, &[x, y, z]): (usize, &Point)| [x, y, z, taper(widths, basis, j, n)];
+            p.iter().enumerate().map(point).collect()
+        };
+        let mut curves = Curves {
+            points: with_radii(&p, widths.unwrap_or([1.0; 2])),
             strands: vec![0],
             basis,
             kind,
-            normals: if kind == CurveKind::Ribbon { normals } else { Vec::new() },
+            normals,
             split_depth: self.split_depth(params),
-        })
+            ..Curves::default()
+        };
+        if END.given(params) {
+            if !(self.has_start(params, END.t, END.p) && self.has_start(params, END.n, START.n)) {
+                return None;
+            }
+            let n_end = params.triples(END.p).len();
+            if n_end != 0 && n_end != n_given {
+                let message = format!("\"P_end\" has {n_end} points and \"P\" {n_given}; give one for each");
+                self.report.error(params.place(END.p), message);
+                return None;
+            }
+            let p = if n_end == 0 { p } else { self.control_points(params, &END)?.1 };
+            let widths = self.widths(params, &END, widths.unwrap_or([1.0; 2]))?.or(widths);
+            curves.points_end = with_radii(&p, widths.unwrap_or([1.0; 2]));
+            if params.has(END.n) {
+                curves.normals_end = self.ribbon_normals(params, &END, kind, n)?.unwrap_or_default();
+            }
+        }
+        Some(curves)
     }
 
-    /// The strands of a `hair`.
+    /// A normal for each end of the `n` segments of a ribbon; none where the curve is no ribbon.
+    fn ribbon_normals(
+        &mut self,
+        params: &mut Params,
+        names: &Names,
+        kind: CurveKind,
+        n: usize,
+    ) -> Option<Option<Vec<Point>>> {
+        let (normals, at) = (params.take_triples(names.n, Type::Normal), params.place(names.n));
+        if kind == CurveKind::Ribbon && normals.len() != n + 1 {
+            let message = format!(
+                "the ribbon has {n} segments and {} normals; give {} in \"normal {}\", one for each end of a segment",
+                normals.len(),
+                n + 1,
+                names.n
+            );
+            self.report.error(at, message);
+            return None;
+        }
+        if kind != CurveKind::Ribbon && !normals.is_empty() {
+            let message = format!("only curves of type \"ribbon\" take normals; \"{}\" is ignored", names.n);
+            self.report.warn(at, message);
+        }
+        Some((kind == CurveKind::Ribbon).then_some(normals))
+    }
+
+    /// The strands of a `hair`, which move where there is a second file.
     pub(super) fn strands(&mut self, params: &Params) -> Option<Curves> {
         let kind = self.curve_kind(params, CurveKind::Cylinder)?;
         let Some((name, at)) = params.text("filename") else {
@@ -115,19 +175,19 @@ impl Builder {
                 .error(at, "files of strands hold no normals; write \"string type\" \"flat\" or \"round\"");
             return None;
         }
-        let widths = self.widths(params)?;
-        let path = self.existing(name, at)?;
-        let file = self.read_strands(name, &path, at)?;
+        let widths = self.widths(params, &START, [1.0; 2])?;
+        let file = self.read_strands(name, at)?;
         let basis = match params.text("basis") {
             Some((text, at)) => self.one_of("basis", text, at, &BASES)?,
             None => file.basis,
         };
-        let strand_width = match widths {
+        let width = match widths {
             Some(w) => StrandWidth::Taper(w),
             None => StrandWidth::File { default: self.default_width(name, &file, at) },
         };
-        let curves = gather(file, basis, kind, strand_width, self.split_depth(params));
-        let (curves, n_left) = curves;
+        let mut curves = Curves { basis, kind, split_depth: self.split_depth(params), ..Curves::default() };
+        let n_left;
+        (curves.points, curves.strands, n_left) = gather(file, basis, width);
         if n_left > 0 {
             let least = basis.least();
             let message = format!(
@@ -135,18 +195,35 @@ impl Builder {
             );
             self.report.warn(at, message);
         }
+        if let Some((end_name, at)) = params.text("filename_end") {
+            let (points, strands, _) = gather(self.read_strands(end_name, at)?, basis, width);
+            if strands != curves.strands || points.len() != curves.points.len() {
+                let message = format!(
+                    "\"{end_name}\" has {} strands with {} points and \"{name}\" {} with {}, or they are of other lengths; \
+                     both ends of a motion have the same strands",
+                    strands.len(),
+                    points.len(),
+                    curves.strands.len(),
+                    curves.points.len()
+                );
+                self.report.error(at, message);
+                return None;
+            }
+            curves.points_end = points;
+        }
         Some(curves)
     }
 
-    fn read_strands(&mut self, name: &str, path: &Path, at: Span) -> Option<CurveFile> {
-        let file = match curve_files::read(path) {
+    fn read_strands(&mut self, name: &str, at: Span) -> Option<CurveFile> {
+        let path = self.existing(name, at)?;
+        let file = match curve_files::read(&path) {
             Ok(file) => file,
             Err(e) => {
                 self.report.error(at, format!("\"{name}\" cannot be read: {e}"));
                 return None;
             }
         };
-        self.report.add_file(path.to_path_buf());
+        self.report.add_file(path);
         for note in &file.notes {
             self.report.warn(at, format!("\"{name}\": {note}"));
         }
@@ -197,21 +274,22 @@ impl Builder {
         found
     }
 
-    /// Widths at the root and the tip, if any is given.
-    fn widths(&mut self, params: &Params) -> Option<Option<[f32; 2]>> {
-        let all = params.float("width");
-        let ends = ["width0", "width1"].map(|name| params.float(name));
-        for (name, v) in [("width", all), ("width0", ends[0]), ("width1", ends[1])] {
+    /// Widths at the root and the tip, if any is given; what is not takes the default.
+    fn widths(&mut self, params: &Params, names: &Names, default: [f32; 2]) -> Option<Option<[f32; 2]>> {
+        let given = [names.width, names.width0, names.width1].map(|name| params.float(name));
+        for (name, v) in [names.width, names.width0, names.width1].into_iter().zip(given) {
             if let Some(v) = v.filter(|v| !(*v >= 0.0 && v.is_finite())) {
                 self.report
                     .error(params.place(name), format!("\"{name}\" is {v}; give one that is not negative"));
                 return None;
             }
         }
-        if all.is_none() && ends == [None; 2] {
+        let [all, root, tip] = given;
+        if given == [None; 3] {
             return Some(None);
         }
-        Some(Some(ends.map(|w| w.or(all).unwrap_or(1.0))))
+        let or = |end: Option<f32>, default: f32| end.or(all).unwrap_or(default);
+        Some(Some([or(root, default[0]), or(tip, default[1])]))
     }
 
     fn split_depth(&mut self, params: &Params) -> u8 {
@@ -219,10 +297,10 @@ impl Builder {
     }
 
     /// The basis that the points are kept in, and the points.
-    fn control_points(&mut self, params: &mut Params) -> Option<(CurveBasis, Vec<Point>)> {
-        let p = params.take_triples("P", Type::Point3);
-        let tangents = params.take_triples("T", Type::Vector3);
-        let at = params.place("P");
+    fn control_points(&mut self, params: &mut Params, names: &Names) -> Option<(CurveBasis, Vec<Point>)> {
+        let p = params.take_triples(names.p, Type::Point3);
+        let tangents = params.take_triples(names.t, Type::Vector3);
+        let at = params.place(names.p);
         if let Some(i) = p.iter().position(|p| p.iter().any(|v| !v.is_finite())) {
             self.report.error(at, format!("control point {i} is not finite; repair or remove it"));
             return None;
@@ -246,7 +324,8 @@ impl Builder {
         }
         if !fits {
             let message = format!(
-                "\"P\" holds {n} points; the basis {name} of degree {d} takes {needs}: add or remove points"
+                "\"{}\" holds {n} points; the basis {name} of degree {d} takes {needs}: add or remove points",
+                names.p
             );
             self.report.error(at, message);
             return None;
@@ -257,10 +336,11 @@ impl Builder {
             ("hermite", _) if tangents.len() == n => (CurveBasis::Bezier, hermite(&p, &tangents)),
             ("hermite", _) => {
                 let message = format!(
-                    "the hermite curve has {n} points and {} tangents; give one for each point in \"vector3 T\"",
-                    tangents.len()
+                    "the hermite curve has {n} points and {} tangents; give one for each point in \"vector3 {}\"",
+                    tangents.len(),
+                    names.t
                 );
-                self.report.error(params.place("T"), message);
+                self.report.error(params.place(names.t), message);
                 return None;
             }
             _ => (self.one_of("basis", name, name_at, &BASES)?, p),
@@ -282,20 +362,15 @@ enum StrandWidth {
     File { default: f32 },
 }
 
-/// Strands of a file as curves; and how many are too short for the basis. Bezier chains lose points that begin no
-/// whole segment.
-fn gather(
-    file: CurveFile,
-    basis: CurveBasis,
-    kind: CurveKind,
-    width: StrandWidth,
-    split_depth: u8,
-) -> (Curves, usize) {
-    let mut curves = Curves { basis, kind, split_depth, points: file.points, ..Curves::default() };
-    let ends = file.strands.iter().skip(1).copied().chain([curves.points.len() as u32]);
+/// Control points with radii and the first of each strand, from a file; and how many strands are too short for the basis. Bezier
+/// chains lose points that begin no whole segment.
+fn gather(file: CurveFile, basis: CurveBasis, width: StrandWidth) -> (Vec<[f32; 4]>, Vec<u32>, usize) {
+    let CurveFile { mut points, strands: starts, .. } = file;
+    let ends = starts.iter().skip(1).copied().chain([points.len() as u32]);
+    let mut strands = Vec::with_capacity(starts.len());
     let mut n_left = 0;
     let mut next = 0;
-    for (&a, b) in file.strands.iter().zip(ends) {
+    for (&a, b) in starts.iter().zip(ends) {
         let (a, n) = (a as usize, b.saturating_sub(a) as usize);
         if n < basis.least() {
             n_left += 1;
@@ -303,19 +378,19 @@ fn gather(
         }
         let n_segments = basis.n_segments(n);
         let kept = if basis == CurveBasis::Bezier { 3 * n_segments + 1 } else { n };
-        curves.strands.push(next as u32);
+        strands.push(next as u32);
         for j in 0..kept {
-            let mut p = curves.points[a + j];
+            let mut p = points[a + j];
             p[3] = match width {
                 StrandWidth::Taper(w) => taper(w, basis, j, n_segments),
                 StrandWidth::File { default } => 0.5 * if p[3] < 0.0 { default } else { p[3] },
             };
-            curves.points[next] = p;
+            points[next] = p;
             next += 1;
         }
     }
-    curves.points.truncate(next);
-    (curves, n_left)
+    points.truncate(next);
+    (points, strands, n_left)
 }
 
 /// A `curve` joins the shape before it where both are made of the same, so that a groom of single strands is one shape.

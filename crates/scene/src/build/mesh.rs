@@ -44,11 +44,20 @@ impl Builder {
             n: params.take_triples("N", Type::Normal),
             s: params.take_triples("S", Type::Vector3),
             uv: params.take_pairs("uv", Type::Point2),
+            p_end: params.take_triples("P_end", Type::Point3),
+            n_end: params.take_triples("N_end", Type::Normal),
             p,
             ..Mesh::default()
         };
-        let mut matching = true;
-        for (name, n) in [("N", mesh.n.len()), ("S", mesh.s.len()), ("uv", mesh.uv.len())] {
+        let mut matching = self.has_start(params, "N_end", "N") && self.has_start(params, "N_end", "P_end");
+        let lists = [
+            ("N", mesh.n.len()),
+            ("S", mesh.s.len()),
+            ("uv", mesh.uv.len()),
+            ("P_end", mesh.p_end.len()),
+            ("N_end", mesh.n_end.len()),
+        ];
+        for (name, n) in lists {
             if n != 0 && n != mesh.p.len() {
                 let message =
                     format!("\"{name}\" has {n} entries and \"P\" {}; give one per vertex", mesh.p.len());
@@ -57,6 +66,16 @@ impl Builder {
             }
         }
         matching.then_some(mesh)
+    }
+
+    /// A parameter is not given without the one that it goes with.
+    pub(super) fn has_start(&mut self, params: &Params, end: &str, start: &str) -> bool {
+        if !params.has(end) || params.has(start) {
+            return true;
+        }
+        let message = format!("\"{end}\" is given without \"{start}\"; give both or none");
+        self.report.error(params.place(end), message);
+        false
     }
 
     /// The corners of triangles or patches, all within the vertices.
@@ -80,12 +99,34 @@ impl Builder {
         None
     }
 
-    /// The mesh of a `plymesh`; each file is read once.
+    /// The mesh of a `plymesh`, which moves where there is a second file.
     pub(super) fn ply_mesh(&mut self, params: &Params) -> Option<Arc<Mesh>> {
         let Some((name, at)) = params.text("filename") else {
             self.report.error(params.at, "the mesh names no file; add \"string filename\" \"...\"");
             return None;
         };
+        let mut start = self.ply_file(name, at)?;
+        let Some((end_name, at)) = params.text("filename_end") else { return Some(start) };
+        let end = self.ply_file(end_name, at)?;
+        let other = if end.p.len() != start.p.len() {
+            format!("{} vertices and \"{name}\" {}", end.p.len(), start.p.len())
+        } else if (&end.triangles, &end.patches) != (&start.triangles, &start.patches) {
+            format!("other faces than \"{name}\"")
+        } else if end.n.is_empty() != start.n.is_empty() {
+            format!("{} normals and \"{name}\" {}", end.n.len(), start.n.len())
+        } else {
+            let mesh = Arc::make_mut(&mut start);
+            (mesh.p_end, mesh.n_end) = (end.p.clone(), end.n.clone());
+            return Some(start);
+        };
+        let message =
+            format!("\"{end_name}\" has {other}; both ends of a motion have the same vertices and faces");
+        self.report.error(at, message);
+        None
+    }
+
+    /// The mesh of a file; each is read once.
+    fn ply_file(&mut self, name: &str, at: Span) -> Option<Arc<Mesh>> {
         let path = self.existing(name, at)?;
         if let Some(known) = self.meshes.get(&path) {
             return known.clone();
@@ -110,7 +151,7 @@ impl Builder {
         // Around the face in the file, row by row in a patch.
         let patches = read.quads.into_iter().map(|[a, b, c, d]| [a, b, d, c]).collect();
         let mesh =
-            Mesh { p: read.p, n: read.n, s: Vec::new(), uv: read.uv, triangles: read.triangles, patches };
+            Mesh { p: read.p, n: read.n, uv: read.uv, triangles: read.triangles, patches, ..Mesh::default() };
         let numbers = mesh.p.iter().chain(&mesh.n).flatten().chain(mesh.uv.iter().flatten());
         if numbers.into_iter().any(|v| !v.is_finite()) {
             let message = format!("\"{name}\" holds a vertex that is not finite; repair the mesh");

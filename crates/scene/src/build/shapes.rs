@@ -69,7 +69,7 @@ impl Builder {
         if entity.support != Support::Yes {
             return;
         }
-        let Some(kind) = self.shape_kind(entity.name, &mut params) else { return };
+        let Some(mut kind) = self.shape_kind(entity.name, &mut params) else { return };
         let mut area_light = self.graphics.area_light;
         if area_light.is_some() && self.open_object.is_some() {
             self.no_light_in_objects(params.at);
@@ -78,6 +78,11 @@ impl Builder {
         if area_light.is_some() && matches!(kind, ShapeKind::Curves(_)) {
             self.report.warn(params.at, "curves do not emit light; the area light is ignored for them");
             area_light = None;
+        }
+        if area_light.is_some() && kind.deforms() {
+            let message = "a shape that emits light cannot deform; it keeps its form where motion starts";
+            self.report.warn(params.at, message);
+            kind = standing(kind);
         }
         let (to_world, moves_to) = if area_light.is_some() {
             (self.standing("a shape that emits light", params.at), None)
@@ -144,6 +149,18 @@ impl Builder {
         }
         self.report.error(params.place("radius"), format!("\"radius\" is {radius}; give one above zero"));
         None
+    }
+}
+
+/// A mesh as it is where motion starts.
+fn standing(kind: ShapeKind) -> ShapeKind {
+    match kind {
+        ShapeKind::Mesh(mut mesh) => {
+            let still = Arc::make_mut(&mut mesh);
+            (still.p_end, still.n_end) = (Vec::new(), Vec::new());
+            ShapeKind::Mesh(mesh)
+        }
+        other => other,
     }
 }
 

@@ -70,6 +70,10 @@ pub struct Curves {
     pub normals: Vec<[f32; 3]>,
     /// Segments are cut into `2^split_depth` parts for the hierarchy.
     pub split_depth: u8,
+    /// Control points with radii where motion ends, one per point, or none: then they stand still.
+    pub points_end: Vec<[f32; 4]>,
+    /// Normals where motion ends, one per normal, or none: then they stay as they are.
+    pub normals_end: Vec<[f32; 3]>,
 }
 
 /// Points of all curves of a description, at most.
@@ -87,8 +91,11 @@ impl Curves {
     }
     /// Takes the strands of another, if both are of one sort and there is room.
     pub(crate) fn append(&mut self, other: &Curves) -> bool {
-        let alike =
-            self.basis == other.basis && self.kind == other.kind && self.split_depth == other.split_depth;
+        let alike = self.basis == other.basis
+            && self.kind == other.kind
+            && self.split_depth == other.split_depth
+            && self.points_end.is_empty() == other.points_end.is_empty()
+            && self.normals_end.is_empty() == other.normals_end.is_empty();
         if !alike || self.points.len() + other.points.len() > MAX_POINTS {
             return false;
         }
@@ -96,6 +103,8 @@ impl Curves {
         self.strands.extend(other.strands.iter().map(|s| s + first));
         self.points.extend_from_slice(&other.points);
         self.normals.extend_from_slice(&other.normals);
+        self.points_end.extend_from_slice(&other.points_end);
+        self.normals_end.extend_from_slice(&other.normals_end);
         true
     }
 }

@@ -18,6 +18,10 @@ pub struct Mesh {
     pub s: Vec<[f32; 3]>,
     /// Texture coordinates, one per position, or none.
     pub uv: Vec<[f32; 2]>,
+    /// Positions where motion ends, one per position, or none: then they stand still.
+    pub p_end: Vec<[f32; 3]>,
+    /// Normals where motion ends, one per normal, or none: then they stay as they are.
+    pub n_end: Vec<[f32; 3]>,
     /// Corners of triangles.
     pub triangles: Vec<[u32; 3]>,
     /// Corners of bilinear patches, in the order p00, p10, p01, p11.
@@ -64,6 +68,17 @@ pub enum ShapeKind {
         /// Sweep, in degrees.
         phi_max: f32,
     },
+}
+
+impl ShapeKind {
+    /// Points of the shape move, each by itself.
+    pub fn deforms(&self) -> bool {
+        match self {
+            ShapeKind::Mesh(mesh) => !mesh.p_end.is_empty(),
+            ShapeKind::Curves(curves) => !curves.points_end.is_empty(),
+            ShapeKind::Sphere { .. } | ShapeKind::Disk { .. } | ShapeKind::Cylinder { .. } => false,
+        }
+    }
 }
 
 /// A shape in the scene.

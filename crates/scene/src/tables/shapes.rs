@@ -1,4 +1,4 @@
-//! Shapes: `Shape::Create` of pbrt-v4, and `hair`.
+//! Shapes: `Shape::Create` of pbrt-v4, and `hair`. What ends in `_end` is Sparrow's own: the same where motion ends.
 
 use super::{Entity, Kind, Row, moot, not_yet, row};
 
@@ -16,6 +16,8 @@ pub(super) static SHAPES: [Entity; 9] = [
                 row("N", Kind::NormalList),
                 row("S", Kind::Vector3List),
                 row("uv", Kind::Point2List),
+                row("P_end", Kind::Point3List),
+                row("N_end", Kind::NormalList),
                 // Only Ptex looks them up.
                 moot("faceIndices", Kind::IntList),
             ],
@@ -27,6 +29,7 @@ pub(super) static SHAPES: [Entity; 9] = [
             COMMON,
             &[
                 row("filename", Kind::Text),
+                row("filename_end", Kind::Text),
                 not_yet("displacement", Kind::Texture),
                 moot("edgelength", Kind::Float),
                 moot("displacement.edgelength", Kind::Float),
@@ -42,6 +45,8 @@ pub(super) static SHAPES: [Entity; 9] = [
                 row("indices", Kind::IntList),
                 row("N", Kind::NormalList),
                 row("uv", Kind::Point2List),
+                row("P_end", Kind::Point3List),
+                row("N_end", Kind::NormalList),
                 moot("faceIndices", Kind::IntList),
                 // The emission's image only steers where points on the light are taken.
                 not_yet("emissionfilename", Kind::Text),
@@ -100,6 +105,12 @@ pub(super) static SHAPES: [Entity; 9] = [
                 row("splitdepth", Kind::Int),
                 // Sparrow's own, for the basis hermite.
                 row("T", Kind::Vector3List),
+                row("P_end", Kind::Point3List),
+                row("N_end", Kind::NormalList),
+                row("T_end", Kind::Vector3List),
+                row("width_end", Kind::Float),
+                row("width0_end", Kind::Float),
+                row("width1_end", Kind::Float),
             ],
         ],
     ),
@@ -110,6 +121,7 @@ pub(super) static SHAPES: [Entity; 9] = [
             COMMON,
             &[
                 row("filename", Kind::Text),
+                row("filename_end", Kind::Text),
                 row("type", Kind::Text),
                 row("basis", Kind::Text),
                 row("width", Kind::Float),

@@ -4,6 +4,7 @@ use super::super::block::LEAF_SIZE;
 use super::super::node::Kind;
 use super::bins::Range;
 use super::prim::{Box4, PrimRef};
+use crate::progress::Progress;
 
 /// Below this size a subtree is built by one thread.
 const PARALLEL: usize = 4096;
@@ -48,13 +49,23 @@ pub(super) struct BinaryNode {
 }
 
 /// A binary tree: its nodes, each before its children, and the numbers of the primitives in the order of the leaves.
-#[derive(Default)]
-pub(super) struct Binary {
+pub(super) struct Binary<'a> {
     pub(super) nodes: Vec<BinaryNode>,
     pub(super) ids: Vec<u32>,
+    progress: &'a Progress<'a>,
+    /// Primitives of which `progress` knows.
+    told: usize,
 }
 
-impl Binary {
+impl<'a> Binary<'a> {
+    pub(super) fn new(progress: &'a Progress<'a>) -> Binary<'a> {
+        Binary { nodes: Vec::new(), ids: Vec::new(), progress, told: 0 }
+    }
+    /// Tells of the primitives that nobody was told of.
+    pub(super) fn tell(&mut self) {
+        self.progress.add(self.ids.len() - self.told);
+        self.told = self.ids.len();
+    }
     pub(super) fn leaf(&mut self, prims: &[PrimRef], bounds: Box4, kinds: Kinds) {
         self.nodes.push(BinaryNode { bounds, count: prims.len() as u32, right: 0, kinds });
         self.ids.extend(prims.iter().map(PrimRef::id));
@@ -65,13 +76,17 @@ impl Binary {
         bounds: Box4,
         parallel: bool,
         (left, right): (L, R),
-        fill: impl Fn(&mut Binary, Side<L, R>) + Sync,
+        fill: impl Fn(&mut Binary<'a>, Side<L, R>) + Sync,
     ) {
         let at = self.nodes.len();
         self.nodes.push(BinaryNode { bounds, count: 0, right: 0, kinds: Kinds::Mixed });
         if parallel {
-            let (mut a, mut b) = (Binary::default(), Binary::default());
-            rayon::join(|| fill(&mut a, Side::Left(left)), || fill(&mut b, Side::Right(right)));
+            let (mut a, mut b) = (Binary::new(self.progress), Binary::new(self.progress));
+            let told = |tree: &mut Binary<'a>, side| {
+                fill(tree, side);
+                tree.tell();
+            };
+            rayon::join(|| told(&mut a, Side::Left(left)), || told(&mut b, Side::Right(right)));
             self.append(a);
             self.nodes[at].right = (self.nodes.len() - at) as u32;
             self.append(b);
@@ -85,6 +100,7 @@ impl Binary {
         self.nodes[at].kinds = l.kinds.and(r.kinds);
     }
     fn append(&mut self, mut other: Binary) {
+        self.told += other.told;
         self.nodes.append(&mut other.nodes);
         self.ids.append(&mut other.ids);
     }

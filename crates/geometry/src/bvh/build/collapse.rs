@@ -78,12 +78,12 @@ fn leaf_cost(node: &BinaryNode) -> f32 {
 
 /// The best way to make each subtree part of a wide tree.
 pub(super) struct Plan<'a> {
-    tree: &'a Binary,
+    tree: &'a Binary<'a>,
     costs: Vec<Costs>,
 }
 
 impl<'a> Plan<'a> {
-    pub(super) fn new(tree: &'a Binary) -> Plan<'a> {
+    pub(super) fn new(tree: &'a Binary<'a>) -> Plan<'a> {
         let mut costs = vec![Costs::of_leaf(0.0); tree.nodes.len()];
         fill(&tree.nodes, &mut costs);
         Plan { tree, costs }

@@ -22,6 +22,7 @@ use super::block::TriBlock;
 use super::node::{Child, Kind};
 use super::pages::Pages;
 use super::stack::STACK_SIZE;
+use crate::progress::Progress;
 use crate::simd::Unit;
 
 /// Where the surface of all primitives' boxes is more than this many times that of the box around them, primitives may be cut.
@@ -47,7 +48,7 @@ struct Tree {
 
 impl Tree {
     /// `None` where there is nothing to build it over. Triangles may be cut where their `corners` are given.
-    fn of<C>(mut prims: Vec<PrimRef>, corners: Option<&C>) -> Option<Tree>
+    fn of<C>(mut prims: Vec<PrimRef>, corners: Option<&C>, progress: &Progress) -> Option<Tree>
     where
         C: Fn(u32) -> [[f32; 3]; 3] + Sync,
     {
@@ -55,7 +56,7 @@ impl Tree {
             return None;
         }
         let extent = Extent::of(&prims);
-        let mut tree = Binary::default();
+        let mut tree = Binary::new(progress);
         let area = extent.bounds.half_area();
         match corners {
             Some(corners) if overlap(&prims, area) > MAX_OVERLAP => {
@@ -68,6 +69,7 @@ impl Tree {
                 drop(prims);
             }
         }
+        tree.tell();
         let mut wide = Wide::default();
         let root = wide.add(&Plan::new(&tree), 0, 0, 0);
         debug_assert!(wide.stack <= STACK_SIZE, "depth is limited");
@@ -98,9 +100,13 @@ impl Tree {
 
 impl Bvh {
     /// Builds the tree over `prims`; `corners` gives the corners of the triangles among them.
-    pub(crate) fn build(prims: Vec<PrimRef>, corners: impl Fn(u32) -> [[f32; 3]; 3] + Sync) -> Bvh {
+    pub(crate) fn build(
+        prims: Vec<PrimRef>,
+        corners: impl Fn(u32) -> [[f32; 3]; 3] + Sync,
+        progress: &Progress,
+    ) -> Bvh {
         let unit = Unit::choose();
-        let Some(tree) = Tree::of(prims, Some(&corners)) else {
+        let Some(tree) = Tree::of(prims, Some(&corners), progress) else {
             let (nodes, triangles) = (Pages::zeroed(0), Pages::zeroed(0));
             return Bvh { nodes, triangles, root: Child::NONE, bounds: Aabb::EMPTY, unit };
         };

@@ -9,6 +9,7 @@ use super::super::pages::Pages;
 use super::prim::widened;
 use super::{PrimRef, Tree};
 use crate::lerp::Lerp;
+use crate::progress::Progress;
 use crate::simd::Unit;
 
 /// Half-way between two boxes.
@@ -46,10 +47,11 @@ impl MotionBvh {
         ids: &[u32],
         boxes: impl Fn(u32) -> [Aabb; 2] + Sync,
         corners: impl Fn(u32) -> [[[f32; 3]; 3]; 2] + Sync,
+        progress: &Progress,
     ) -> MotionBvh {
         let unit = Unit::choose();
         let prims: Vec<PrimRef> = ids.iter().map(|&i| PrimRef::new(i, half_way(&boxes(i)), kind)).collect();
-        let Some(tree) = Tree::of(prims, None::<&fn(u32) -> [[f32; 3]; 3]>) else {
+        let Some(tree) = Tree::of(prims, None::<&fn(u32) -> [[f32; 3]; 3]>, progress) else {
             let (nodes, triangles) = (Pages::zeroed(0), Pages::zeroed(0));
             return Bvh { nodes, triangles, root: Child::NONE, bounds: Aabb::EMPTY, unit };
         };
