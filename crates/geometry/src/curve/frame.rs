@@ -95,19 +95,21 @@ impl RayCubic {
         x * x + y * y
     }
 
+    /// Coefficients of a coordinate.
     #[inline(always)]
-    fn each<R: Real>(&self, f: impl Fn(R, R, R, R) -> R) -> LanePoint<R> {
-        let at = |i: usize| {
-            let c = |k: usize| R::of(f64::from(self.a[k][i]));
-            f(c(0), c(1), c(2), c(3))
-        };
-        LanePoint { x: at(0), y: at(1), z: at(2), r: at(3) }
+    fn of<R: Real>(&self, i: usize) -> [R; 4] {
+        let [a, b, c, d] = &self.a;
+        [R::of(f64::from(a[i])), R::of(f64::from(b[i])), R::of(f64::from(c[i])), R::of(f64::from(d[i]))]
+    }
+    #[inline(always)]
+    fn each<R: Real>(&self, f: impl Fn([R; 4]) -> R) -> LanePoint<R> {
+        LanePoint { x: f(self.of(0)), y: f(self.of(1)), z: f(self.of(2)), r: f(self.of(3)) }
     }
     #[inline(always)]
     pub(super) fn at<R: Real>(&self, u: R) -> LanePoint<R> {
         self.each(
             #[inline(always)]
-            |a, b, c, d| a + u * (b + u * (c + u * d)),
+            |[a, b, c, d]| a + u * (b + u * (c + u * d)),
         )
     }
     #[inline(always)]
@@ -117,11 +119,11 @@ impl RayCubic {
             p: self.at(u),
             d: self.each(
                 #[inline(always)]
-                |_, b, c, d| b + u * (two * c + u * (three * d)),
+                |[_, b, c, d]| b + u * (two * c + u * (three * d)),
             ),
             dd: self.each(
                 #[inline(always)]
-                |_, _, c, d| two * c + u * (six * d),
+                |[_, _, c, d]| two * c + u * (six * d),
             ),
         }
     }

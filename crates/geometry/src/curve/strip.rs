@@ -20,12 +20,12 @@ impl Width {
     /// The part of the width that is seen at `u`.
     #[inline(always)]
     fn seen<R: Real>(self, u: R) -> R {
-        let of = |v: f32| R::of(f64::from(v));
         match self {
             Width::Full => R::ONE,
             Width::Ribbon { angle, along } => {
                 let [a, b] = slerp_weights(angle, u);
-                (a * of(along[0]) + b * of(along[1])).abs().min(R::ONE)
+                let along = [R::of(f64::from(along[0])), R::of(f64::from(along[1]))];
+                (a * along[0] + b * along[1]).abs().min(R::ONE)
             }
         }
     }
