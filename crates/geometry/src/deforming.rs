@@ -11,9 +11,7 @@ use crate::curve::DeformingCurves;
 use crate::geometry::BuildBytes;
 use crate::patch::DeformingPatches;
 use crate::point::SurfacePoint;
-use crate::progress::Progress;
 use crate::ray::{Hit, Ray};
-use crate::shape::Shape;
 use crate::triangle::DeformingTriangles;
 
 /// A shape that deforms, ready to be asked.
@@ -45,21 +43,6 @@ macro_rules! each {
 }
 
 impl Deforming {
-    /// The shape, if it has points where motion ends for all that it has at the start; else it is given back.
-    pub(crate) fn new(shape: Shape, flip: bool, progress: &Progress) -> Result<Deforming, Shape> {
-        match shape {
-            Shape::Triangles(m) if !m.p.is_empty() && m.p_end.len() == m.p.len() => {
-                Ok(Deforming::Triangles(DeformingTriangles::new(m, flip, progress)))
-            }
-            Shape::Patches(m) if !m.p.is_empty() && m.p_end.len() == m.p.len() => {
-                Ok(Deforming::Patches(DeformingPatches::new(m, flip, progress)))
-            }
-            Shape::Curves(c) if !c.points.is_empty() && c.points_end.len() == c.points.len() => {
-                Ok(Deforming::Curves(DeformingCurves::new(c, progress)))
-            }
-            other => Err(other),
-        }
-    }
     /// Primitives.
     pub(crate) fn len(&self) -> usize {
         each!(self, s => s.len())

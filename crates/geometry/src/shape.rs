@@ -24,6 +24,13 @@ pub struct TriangleMesh {
     pub n_end: Vec<[f32; 3]>,
 }
 
+impl TriangleMesh {
+    /// Its vertices move: all have a place where motion ends.
+    pub fn deforms(&self) -> bool {
+        !self.p.is_empty() && self.p_end.len() == self.p.len()
+    }
+}
+
 /// A mesh of bilinear patches in world space.
 ///
 /// The per-vertex lists are empty or as long as `p`; normals as in [`TriangleMesh`].
@@ -41,6 +48,13 @@ pub struct BilinearMesh {
     pub p_end: Vec<[f32; 3]>,
     /// As `p_end`.
     pub n_end: Vec<[f32; 3]>,
+}
+
+impl BilinearMesh {
+    /// As of a [`TriangleMesh`].
+    pub fn deforms(&self) -> bool {
+        !self.p.is_empty() && self.p_end.len() == self.p.len()
+    }
 }
 
 /// How control points make a curve. Segments join where they share control points.
@@ -91,6 +105,13 @@ pub struct CurveSet {
     pub points_end: Vec<[f32; 4]>,
     /// Normals where motion ends, or empty: then they stay as they are.
     pub normals_end: Vec<[f32; 3]>,
+}
+
+impl CurveSet {
+    /// Its control points move: all have a place where motion ends.
+    pub fn deforms(&self) -> bool {
+        !self.points.is_empty() && self.points_end.len() == self.points.len()
+    }
 }
 
 /// A shape. Quadrics stand in their own object space around the z axis; angles are in radians.

@@ -111,7 +111,8 @@ fn walk<S: Simd, const ANY: bool, N: Boxes, B: Block>(
     mut found: impl FnMut(RawHit) -> f32,
 ) {
     let Some(r) = RayData::<S>::new(ray) else { return };
-    let blocks = Blocks { others, nodes: &*bvh.nodes, triangles: &*bvh.triangles };
+    let (nodes, triangles): (&[N], &[B]) = (&bvh.nodes, &bvh.triangles);
+    let blocks = Blocks { others, nodes, triangles };
     let mut stack = Stack::new();
     let (mut t_max, mut child) = (ray.t_max, bvh.root);
     if child == Child::NONE {

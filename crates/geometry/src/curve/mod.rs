@@ -130,7 +130,7 @@ impl Curves {
             Unit::Avx2(_) => self.hit_in_lanes(BlockTest { curves: self, block, ray, first, t_max, found }),
         }
     }
-    // Both are compiled once, whatever waits for the hits: that takes long.
+    // The work is compiled once, whatever waits for the hits: that takes long.
 
     /// In lanes that every target has.
     #[inline(never)]
@@ -139,7 +139,7 @@ impl Curves {
     }
     /// In the registers of this processor.
     #[cfg(target_arch = "x86_64")]
-    #[inline(never)]
+    #[inline]
     fn hit_in_lanes(&self, test: BlockTest<dyn FnMut(RawHit) -> f32 + '_>) -> f32 {
         in_lanes(test)
     }

@@ -5,15 +5,15 @@ use sparrow_math::Aabb;
 
 use super::BuildBytes;
 use crate::bvh::{Kind, MAX_PRIMS, Others, PrimRef, RawHit};
-use crate::curve::Curves;
+use crate::curve::{Curves, DeformingCurves};
 use crate::deforming::Deforming;
 use crate::instance::padded;
-use crate::patch::{Part, Patches};
+use crate::patch::{DeformingPatches, Part, Patches};
 use crate::progress::Progress;
 use crate::quadric::Quadric;
 use crate::ray::{Hit, Ray};
 use crate::shape::{Shape, ShapeInstance};
-use crate::triangle::Triangles;
+use crate::triangle::{DeformingTriangles, Triangles};
 
 /// A shape ready to be asked.
 #[derive(Debug)]
@@ -29,16 +29,22 @@ pub(super) enum Body {
 
 impl Body {
     pub(super) fn new(s: ShapeInstance, progress: &Progress) -> Body {
-        let shape = match Deforming::new(s.shape, s.flip_normal, progress) {
-            Ok(deforming) => return Body::Deforming(Box::new(deforming)),
-            Err(shape) => shape,
-        };
-        match shape {
-            Shape::Triangles(m) => Body::Triangles(Triangles::new(m, s.flip_normal)),
-            Shape::Patches(m) => Body::Patches(Patches::new(m, s.flip_normal)),
+        let (flip, deforming) = (s.flip_normal, |d: Deforming| Body::Deforming(Box::new(d)));
+        match s.shape {
+            Shape::Triangles(m) if m.deforms() => {
+                deforming(Deforming::Triangles(DeformingTriangles::new(m, flip, progress)))
+            }
+            Shape::Patches(m) if m.deforms() => {
+                deforming(Deforming::Patches(DeformingPatches::new(m, flip, progress)))
+            }
+            Shape::Curves(c) if c.deforms() => {
+                deforming(Deforming::Curves(DeformingCurves::new(c, progress)))
+            }
+            Shape::Triangles(m) => Body::Triangles(Triangles::new(m, flip)),
+            Shape::Patches(m) => Body::Patches(Patches::new(m, flip)),
             Shape::Curves(c) => Body::Curves(Curves::new(c, progress)),
             quadric @ (Shape::Sphere { .. } | Shape::Disk { .. } | Shape::Cylinder { .. }) => {
-                Body::Quadric(Quadric::new(&quadric, &s.to_world, s.flip_normal).map(Box::new))
+                Body::Quadric(Quadric::new(&quadric, &s.to_world, flip).map(Box::new))
             }
         }
     }

@@ -42,7 +42,7 @@ fn still(s: &ShapeInstance, time: f32) -> ShapeInstance {
             normals_end: Vec::new(),
             ..c
         }),
-        quadric => quadric,
+        quadric @ (Shape::Sphere { .. } | Shape::Disk { .. } | Shape::Cylinder { .. }) => quadric,
     };
     ShapeInstance { shape, ..s.clone() }
 }

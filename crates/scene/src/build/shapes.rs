@@ -153,15 +153,12 @@ impl Builder {
 }
 
 /// A mesh as it is where motion starts.
-fn standing(kind: ShapeKind) -> ShapeKind {
-    match kind {
-        ShapeKind::Mesh(mut mesh) => {
-            let still = Arc::make_mut(&mut mesh);
-            (still.p_end, still.n_end) = (Vec::new(), Vec::new());
-            ShapeKind::Mesh(mesh)
-        }
-        other => other,
+fn standing(mut kind: ShapeKind) -> ShapeKind {
+    if let ShapeKind::Mesh(mesh) = &mut kind {
+        let still = Arc::make_mut(mesh);
+        (still.p_end, still.n_end) = (Vec::new(), Vec::new());
     }
+    kind
 }
 
 /// Beyond a full turn pbrt-v4 takes a full turn.
