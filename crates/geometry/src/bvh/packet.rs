@@ -24,14 +24,6 @@ pub(super) fn room<S: Simd>() -> [Sheared<S>; MAX_VERTICES] {
     [[S::F8::splat(0.0); 3]; MAX_VERTICES]
 }
 
-/// Eight rays are worth a packet: always with a register for eight, else only where they go the same way. In halves of four the others
-/// take longer than one by one.
-#[inline(always)]
-pub(super) fn pays<S: Simd>(rays: &[Ray; RAYS]) -> bool {
-    let octant = |ray: &Ray| [ray.d.x, ray.d.y, ray.d.z].map(f32::is_sign_negative);
-    S::EIGHT_IN_ONE || rays[1..].iter().all(|ray| octant(ray) == octant(&rays[0]))
-}
-
 /// Eight rays, with what [`RayData`](super::ray_data::RayData) knows of one.
 struct Packet<S: Simd> {
     o: [S::F8; 3],

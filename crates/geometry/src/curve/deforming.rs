@@ -160,7 +160,7 @@ impl Seen<'_> {
     }
     /// In the registers of this processor.
     #[cfg(target_arch = "x86_64")]
-    #[inline(never)]
+    #[inline]
     fn hit_in_lanes(&self, piece: u32, t_max: f32) -> Option<CurveHit> {
         in_lanes(PieceTest { seen: self, piece, t_max })
     }

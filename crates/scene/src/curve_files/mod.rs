@@ -1,7 +1,7 @@
 //! Strands in files: [`read`], [`hair_bytes`].
 //!
 //! - HAIR, of Cem Yuksel's cyHair (`.hair`, told by its first four bytes), with any choice of arrays;
-//! - AMD's TressFX (`.tfx`), guide strands;
+//! - AMD's TressFX (`.tfx`), guide strands with their thickness, if it is there;
 //! - text as Mitsuba reads it: a line `x y z radius` for each point, an empty line between strands.
 //!
 //! All may be compressed with gzip, told by content. Widths are diameters, in all of Sparrow.

@@ -135,6 +135,15 @@ fn tressfx_files_are_read_or_refused() {
     for n in 0..whole.len() {
         assert!(at(&whole[..n], "a.tfx").is_err());
     }
+    // Behind the points, a thickness for each strand.
+    let mut thick = whole.clone();
+    thick[24..28].copy_from_slice(&(whole.len() as u32).to_le_bytes());
+    [0.25_f32, 0.5, f32::NAN].iter().for_each(|v| thick.extend(v.to_le_bytes()));
+    let file = at(&thick, "a.tfx").unwrap();
+    assert_eq!((file.points[3][3], file.points[4][3], file.strands), (0.25, 0.5, vec![0, 4]));
+    assert_eq!(file.notes, ["1 strand with numbers that are not finite left out"]);
+    let short = at(&thick[..thick.len() - 1], "a.tfx").unwrap_err();
+    assert!(short.contains("promises 3 thicknesses"), "{short}");
 }
 
 #[test]
