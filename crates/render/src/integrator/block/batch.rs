@@ -8,6 +8,7 @@ use sparrow_spectra::{N_LAMBDA, Spectrum, Wavelengths};
 
 use super::column::{Column, pad, padded, put_spectrum, put_vector, spectrum, vector};
 use super::lanes::{ToLocal, ToWorld};
+use super::lights::{LightChoice, LightChoices};
 use super::paths::Paths;
 use crate::integrator::PathIntegrator;
 use crate::integrator::path::{light_dimension, scatter_dimension};
@@ -18,8 +19,8 @@ use crate::scatter::{Density, Scatter, ScatterSample};
 use crate::scene::{Scene, fibre_offset};
 use crate::texture::TextureContext;
 
-/// Fewer vertices than this are scattered one by one.
-const FEW: usize = 4;
+/// Fewer vertices than this are worked off one by one.
+pub(super) const FEW: usize = 4;
 
 /// What vertices of a batch have in common: the material, and whether its narrow lobes are widened.
 pub(super) fn key(material: u32, regularized: bool) -> u32 {
@@ -36,6 +37,7 @@ pub(super) struct Batch<'a> {
     pub(super) lights: Vec<LightSample>,
     /// Where the numbers of each vertex stand.
     numbers_of: Vec<u32>,
+    choices: LightChoices,
     /// Vertices without, and where their numbers stand.
     unlit: Vec<(u32, u32)>,
     /// The models of vertices that are scattered one by one; empty where that is done in lanes.
@@ -113,6 +115,7 @@ impl<'a> Batch<'a> {
         self.lights.clear();
         self.unlit.clear();
         self.numbers_of.clear();
+        self.choices.clear(scene.lights().len());
         let Columns { numbers, wi_light, .. } = &mut *self.columns;
         for (j, &path) in vertices.iter().enumerate() {
             let i = path as usize;
@@ -120,18 +123,24 @@ impl<'a> Batch<'a> {
             let turn = how.mis.turn(numbers.light[j]);
             paths.looks[i] = turn.bsdf;
             let at = LitPoint { p: point.p, n: point.ns };
-            let u = numbers.on_light.each_ref().map(|c| c[j]);
-            let draw = || scene.sample_light(&at, turn.u, u, &paths.lambda[i]);
-            match turn.light.then(draw).flatten() {
-                Some(light) => {
-                    put_vector(wi_light, self.path.len(), light.wi);
-                    self.lights.push(light);
-                    self.path.push(path);
-                    self.numbers_of.push(j as u32);
+            let choose = || scene.lights().choose(&at, turn.u);
+            match turn.light.then(choose).flatten() {
+                Some((light, probability)) => {
+                    let u = numbers.on_light.each_ref().map(|c| c[j]);
+                    self.choices.push(light, LightChoice { vertex: j as u32, path, at, u, probability });
                 }
                 None => self.unlit.push((path, j as u32)),
             }
         }
+        self.choices.draw(scene, &paths.lambda, |choice, light| match light {
+            Some(light) => {
+                put_vector(wi_light, self.path.len(), light.wi);
+                self.lights.push(light);
+                self.path.push(choice.path);
+                self.numbers_of.push(choice.vertex);
+            }
+            None => self.unlit.push((choice.path, choice.vertex)),
+        });
         self.path.extend(self.unlit.iter().map(|(path, _)| path));
         self.numbers_of.extend(self.unlit.iter().map(|(_, j)| j));
     }

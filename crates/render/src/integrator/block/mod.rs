@@ -11,6 +11,7 @@ mod column;
 mod fresh;
 mod groups;
 mod lanes;
+mod lights;
 mod paths;
 mod shadow;
 
