@@ -90,16 +90,10 @@ struct Numbers {
 impl<'a> Batch<'a> {
     /// Draws the uniform numbers of each vertex.
     pub(super) fn draw<R>(&mut self, sampler: &Sampler, paths: &Paths<'a, R>, vertices: &[u32]) {
+        let at = |&i: &u32| paths.sampler[i as usize].at(light_dimension(paths.depth[i as usize]));
         self.samplers.clear();
-        self.samplers.extend(vertices.iter().map(|&i| paths.sampler[i as usize]));
-        let numbers = &mut self.columns.numbers;
-        let mut first = 0;
-        // Vertices come in the order of their depth.
-        for run in vertices.chunk_by(|&a, &b| paths.depth[a as usize] == paths.depth[b as usize]) {
-            let end = first + run.len();
-            numbers.fill(sampler, &self.samplers[first..end], paths.depth[run[0] as usize], first);
-            first = end;
-        }
+        self.samplers.extend(vertices.iter().map(at));
+        self.columns.numbers.fill(sampler, &self.samplers);
     }
 
     /// Draws a light for each vertex, and puts those first that got one.
@@ -229,17 +223,14 @@ impl<'a> Batch<'a> {
 }
 
 impl Numbers {
-    /// Those of vertices of one depth, which stand from `first` on.
-    fn fill(&mut self, sampler: &Sampler, paths: &[PixelSampler<'_>], depth: u32, first: usize) {
-        let range = first..first + paths.len();
-        let (light, scatter) = (light_dimension(depth), scatter_dimension(depth));
-        sampler.fill_1d(paths, light, &mut self.light[range.clone()]);
-        sampler.fill_2d(paths, light + 1, self.on_light.each_mut().map(|c| &mut c[range.clone()]));
-        sampler.fill_1d(paths, scatter, &mut self.lobe[range.clone()]);
-        sampler.fill_2d(paths, scatter + 1, self.direction.each_mut().map(|c| &mut c[range.clone()]));
-        if depth > 0 {
-            sampler.fill_1d(paths, scatter + 3, &mut self.roulette[range]);
-        }
+    /// Those of vertices whose samplers stand where their dimensions begin.
+    fn fill(&mut self, sampler: &Sampler, paths: &[PixelSampler<'_>]) {
+        let scatter = scatter_dimension(0) - light_dimension(0);
+        sampler.fill_1d(paths, 0, &mut self.light[..]);
+        sampler.fill_2d(paths, 1, self.on_light.each_mut().map(|c| &mut c[..]));
+        sampler.fill_1d(paths, scatter, &mut self.lobe[..]);
+        sampler.fill_2d(paths, scatter + 1, self.direction.each_mut().map(|c| &mut c[..]));
+        sampler.fill_1d(paths, scatter + 3, &mut self.roulette[..]);
     }
 }
 

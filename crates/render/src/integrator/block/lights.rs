@@ -61,7 +61,7 @@ impl LightChoices {
         lambda: &[Wavelengths],
         mut put: impl FnMut(&LightChoice, Option<LightSample>),
     ) {
-        self.by_light.sort(BATCH);
+        self.by_light.sort(BATCH, false);
         let (lights, geometry) = (scene.lights(), scene.geometry());
         for (light, chosen) in (0..self.by_light.len()).map(|i| self.by_light.batch(i)) {
             let choice = |k: usize| &self.all[chosen[k] as usize];
