@@ -3,7 +3,7 @@
 //! A camera sample with its first vertex costs `c0` and leaves the variance `v0`, whatever follows; each way on costs `c1` and, alone,
 //! leaves `v1`. With `n` ways a sample costs `c0 + n c1` and leaves `v0 + v1 / n`; the best `n` makes the product least. A pilot of a few
 //! thousand paths measures the four, costs in rays, so that the choice is the same on every machine and with any number of threads.
-//! [ArvoKirk1990; RathEtAl2022]
+//! [ArvoKirk1990], [Rath2022]
 
 use sparrow_spectra::Spectrum;
 
