@@ -26,5 +26,5 @@ pub use instance::{Instance, MovingInstance};
 pub use point::{ShapeSample, SurfacePoint};
 pub use progress::{BuildObserver, BuildProgress};
 pub use ray::{Hit, Ray};
-pub use sample::Viewpoint;
+pub use sample::{SampleColumns, Viewpoint};
 pub use shape::{BilinearMesh, CurveBasis, CurveKind, CurveSet, Shape, ShapeInstance, TriangleMesh};
