@@ -92,7 +92,7 @@ impl BuildWatch {
 }
 
 fn built(p: &BuildProgress) -> String {
-    format!("building a hierarchy over {}primitives", si(p.total as f64))
+    format!("building a hierarchy over {} primitives", si(p.total as f64).trim_end())
 }
 
 /// Tells how far a render is.
