@@ -70,8 +70,8 @@ pub(crate) fn run(args: &RenderArgs) -> Result<u8, Failure> {
         render_seconds: did.elapsed.as_secs_f64(),
     };
     stats.usage = Usage::now();
-    log.line(&ending(&out, &stats));
     log.line(&format!("memory: {}", stats.memory));
+    log.line(&ending(&out, &stats));
     stats.notes = log.notes;
     hand_over(args, &out, &stats, &warnings)?;
     Ok(exit_code(status))
