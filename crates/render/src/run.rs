@@ -6,12 +6,14 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::Instant;
 
 use rayon::prelude::*;
+use sparrow_scene::RouletteName;
 
 use crate::film::Film;
 use crate::integrator::{Block, CameraNumbers, CameraSample, Exposed, RayCounts};
 use crate::observe::{Observer, TileObserver};
 use crate::plan::RenderPlan;
 use crate::render::{Progress, RenderError, RenderOptions, RenderStats};
+use crate::roulette::{Learned, learn};
 use crate::sampler::Sampler;
 use crate::scene::Scene;
 
@@ -94,6 +96,7 @@ pub(crate) struct Run<'a> {
     samples: AtomicU64,
     samples_total: AtomicU64,
     rays_so_far: AtomicU64,
+    learned: Option<Learned>,
 }
 
 impl<'a> Run<'a> {
@@ -111,7 +114,12 @@ impl<'a> Run<'a> {
             .num_threads(options.threads)
             .build()
             .map_err(|e| RenderError::Threads { threads: options.threads, reason: e.to_string() })?;
+        let how = &plan.integrator;
+        // The first bounce is not played for.
+        let wanted = how.roulette == RouletteName::Efficiency && how.max_depth > 1 && how.max_smooth > 1;
+        let learned = wanted.then(|| pool.install(|| learn(scene, plan)));
         Ok(Run {
+            learned,
             scene,
             plan,
             stop,
@@ -192,7 +200,16 @@ impl<'a> Run<'a> {
                 CameraSample::new(self.scene, self.plan, pixel, &numbers);
             let mut record = T::Record::default();
             let integrator = &self.plan.integrator;
-            let l = integrator.radiance(self.scene, ray, &mut lambda, &mut sampler, &mut rays, &mut record);
+            let roulette = tile.roulette(pixel);
+            let l = integrator.radiance(
+                self.scene,
+                ray,
+                &mut lambda,
+                &mut sampler,
+                &mut rays,
+                &mut record,
+                roulette,
+            );
             rays.camera += 1;
             rays.scattered -= 1;
             tile.take(place, l, &lambda, &record);
@@ -209,7 +226,7 @@ impl<'a> Run<'a> {
         let film = exposure.film().tile(*origin, [TILE, TILE]);
         let observer = exposure.observer.tile(*origin, [TILE, TILE]);
         let [w, h] = film.size();
-        let mut tile = Exposed { plan: self.plan, film, observer };
+        let mut tile = Exposed { plan: self.plan, learned: self.learned.as_ref(), film, observer };
         let mut each =
             Samples { first: *origin, width: w, height: h, samples: samples.clone(), next: [0; 3] };
         let rays = if self.plan.one_by_one {

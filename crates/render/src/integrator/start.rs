@@ -7,6 +7,7 @@ use sparrow_spectra::{Spectrum, Wavelengths};
 use crate::film::FilmTile;
 use crate::observe::{Sample, TileObserver};
 use crate::plan::RenderPlan;
+use crate::roulette::{Learned, Roulette};
 use crate::sampler::PixelSampler;
 use crate::scene::Scene;
 
@@ -56,9 +57,21 @@ impl CameraSample {
     /// Wavelengths, time, place on film and lens of a sample of a pixel of the film's window.
     #[inline]
     pub(crate) fn new(scene: &Scene, plan: &RenderPlan, pixel: [u32; 2], u: &CameraNumbers) -> CameraSample {
+        let sample = Self::in_full_picture(scene, plan, plan.in_full_picture(pixel), u);
+        CameraSample { place: FilmPlace { pixel, ..sample.place }, ..sample }
+    }
+
+    /// Of a pixel of the full picture, rendered or not.
+    #[inline]
+    pub(crate) fn in_full_picture(
+        scene: &Scene,
+        plan: &RenderPlan,
+        pixel: [u32; 2],
+        u: &CameraNumbers,
+    ) -> CameraSample {
         let lambda = plan.sensor.wavelengths(u.wavelength);
         let time = if scene.moves { scene.camera.time(u.time) } else { 0.0 };
-        let (film, weight) = film_point(plan, plan.in_full_picture(pixel).map(|x| x as f32), u.pixel);
+        let (film, weight) = film_point(plan, pixel.map(|x| x as f32), u.pixel);
         let ray = scene.camera.ray(film, u.lens, time);
         CameraSample { place: FilmPlace { pixel, weight }, lambda, ray }
     }
@@ -75,11 +88,18 @@ pub(super) fn film_point<R: Real>(plan: &RenderPlan, pixel: [R; 2], u: [R; 2]) -
 /// A tile of the film with who looks on.
 pub(crate) struct Exposed<'a, T> {
     pub(crate) plan: &'a RenderPlan,
+    pub(crate) learned: Option<&'a Learned>,
     pub(crate) film: FilmTile,
     pub(crate) observer: T,
 }
 
 impl<T: TileObserver> Exposed<'_, T> {
+    /// How paths of a pixel are ended.
+    #[inline]
+    pub(crate) fn roulette(&self, pixel: [u32; 2]) -> Roulette<'_> {
+        Roulette::of_pixel(self.learned, self.plan.in_full_picture(pixel))
+    }
+
     /// Takes the radiance `l` that a path found.
     #[inline]
     pub(crate) fn take(

@@ -4,9 +4,10 @@ use sparrow_geometry::{Ray, SurfacePoint};
 use sparrow_spectra::{Spectrum, Wavelengths};
 
 use crate::integrator::CameraSample;
-use crate::integrator::path::roulette;
+use crate::integrator::Record;
 use crate::integrator::start::FilmPlace;
 use crate::light::LitPoint;
+use crate::roulette::Roulette;
 use crate::sampler::PixelSampler;
 use crate::scatter::{Density, ScatterSample};
 use crate::scene::LastVertex;
@@ -49,7 +50,7 @@ impl<R> Default for Paths<'_, R> {
     }
 }
 
-impl<'a, R: Default> Paths<'a, R> {
+impl<'a, R: Record + Default> Paths<'a, R> {
     pub(super) fn len(&self) -> usize {
         self.ray.len()
     }
@@ -90,7 +91,14 @@ impl<'a, R: Default> Paths<'a, R> {
 
     /// Takes path `i` from `point` along a sampled direction; false where roulette ends it, by the uniform number `u`.
     #[inline]
-    pub(super) fn go_on(&mut self, i: usize, point: &SurfacePoint, s: &ScatterSample, u: f32) -> bool {
+    pub(super) fn go_on(
+        &mut self,
+        i: usize,
+        point: &SurfacePoint,
+        s: &ScatterSample,
+        u: f32,
+        roulette: Roulette<'_>,
+    ) -> bool {
         let beta = &mut self.beta[i];
         *beta *= s.weight;
         self.eta_scale[i] *= s.eta * s.eta;
@@ -105,13 +113,14 @@ impl<'a, R: Default> Paths<'a, R> {
         self.ray[i] = point.spawn(s.wi);
         self.depth[i] += 1;
 
-        let survival = roulette((*beta * self.eta_scale[i]).max_value());
+        let survival = roulette.survival(point.p, *beta, self.eta_scale[i]);
         if survival < 1.0 && self.depth[i] > 1 {
             if u >= survival {
                 return false;
             }
             *beta *= 1.0 / survival;
         }
+        self.record[i].goes_on(point.p, *beta);
         true
     }
 }
