@@ -49,7 +49,7 @@ impl Quadric {
         q.ball = q
             .form
             .whole_radius()
-            .and_then(|r| Some(Ball { center: to.point(Vec3::splat(0.0)), radius: r * to.uniform_scale()? }));
+            .and_then(|r| Some(Ball::new(to.point(Vec3::splat(0.0)), r * to.uniform_scale()?)));
         q.area = q.world_area();
         let b = q.bounds();
         (q.area > 0.0 && q.area.is_finite() && b.lo.is_finite() && b.hi.is_finite()).then_some(q)

@@ -11,6 +11,7 @@ mod column;
 mod fresh;
 mod groups;
 mod lanes;
+mod lights;
 mod paths;
 mod shadow;
 
@@ -72,7 +73,7 @@ impl<'a, R: Record + Default> Block<'a, R> {
         while self.generate(scene, tile.plan, sampler, samples) {
             self.intersect(scene);
             self.emitted(scene, &how);
-            self.group(scene, &how);
+            self.group(scene, sampler, &how);
             for i in 0..self.groups.len() {
                 let (key, paths) = self.groups.batch(i);
                 self.batch.draw(sampler, &self.paths, paths);
@@ -130,7 +131,7 @@ impl<'a, R: Record + Default> Block<'a, R> {
     }
 
     /// Paths end, pass through, or have a vertex: these are put together by material.
-    fn group(&mut self, scene: &Scene, how: &PathIntegrator) {
+    fn group(&mut self, scene: &Scene, sampler: &Sampler, how: &PathIntegrator) {
         let paths = &mut self.paths;
         self.groups.clear(2 * scene.n_materials());
         for (i, hit) in self.points.iter().enumerate() {
@@ -148,7 +149,7 @@ impl<'a, R: Record + Default> Block<'a, R> {
                 None => paths.ray[i] = point.spawn(paths.ray[i].d),
             }
         }
-        self.groups.sort(BATCH);
+        self.groups.sort(BATCH, sampler.has_tables());
     }
 
     /// Hands over the light of paths that have ended, and forgets them.
