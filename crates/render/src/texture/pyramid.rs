@@ -49,12 +49,14 @@ impl Pyramid {
             TextureEncoding::Gamma(g) => Some(Encoding::Gamma(g)),
         };
         let image = Image::read(&map.path, encoding).map_err(|e| e.to_string())?;
-        Ok(Pyramid::new(&image, Pyramid::is_asked_for(map.filter), matrix))
+        let texels = Texels::new(&image, matrix);
+        drop(image);
+        Ok(Pyramid::new(texels, Pyramid::is_asked_for(map.filter)))
     }
 
-    /// Of an image; `matrix` as for [`read`](Self::read).
-    pub(crate) fn new(image: &Image, coarser: bool, matrix: Option<&[[f32; 3]; 3]>) -> Pyramid {
-        let mut levels = vec![Texels::new(image, matrix)];
+    /// Over texels, alone or with the coarser levels.
+    pub(super) fn new(texels: Texels, coarser: bool) -> Pyramid {
+        let mut levels = vec![texels];
         while let Some(last) = levels.last().filter(|l| coarser && (l.width > 1 || l.height > 1)) {
             let half = last.halved();
             levels.push(half);

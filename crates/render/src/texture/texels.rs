@@ -23,7 +23,7 @@ enum Numbers {
 /// Linear red, green and blue of an image's texels; one number each where the image is grey.
 ///
 /// Blocks of 4 x 4 lie together, so that the neighbours a filter asks for share a line or two of the cache in both directions. A number
-/// takes what it takes in the file: 1 byte, 2 for half floats, 4 for floats. Those of means of 8-bit codes take 2, other means 4.
+/// takes what it takes in the file: 1 byte, 2 for half floats, 4 for floats; means of 8-bit codes take 2.
 #[derive(Debug)]
 pub(super) struct Texels {
     pub(super) width: usize,
@@ -32,17 +32,17 @@ pub(super) struct Texels {
     numbers: Numbers,
 }
 
-/// `value(x, y, channel)` of all texels, block by block; places of a block beyond the edges hold zeros.
+/// The first numbers of `texel(x, y)` for all texels, block by block; places of a block beyond the edges hold zeros.
 fn in_blocks<T: Copy + Default>(
     [width, height]: [usize; 2],
     n_channels: usize,
-    value: impl Fn(usize, usize, usize) -> T,
+    texel: impl Fn(usize, usize) -> [T; 3],
 ) -> Vec<T> {
     let n_blocks = width.div_ceil(SIDE) * height.div_ceil(SIDE);
     let mut numbers = vec![T::default(); n_blocks * SIDE * SIDE * n_channels];
     for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
         let at = place(width, x, y) * n_channels;
-        numbers[at..at + n_channels].iter_mut().enumerate().for_each(|(c, v)| *v = value(x, y, c));
+        numbers[at..at + n_channels].copy_from_slice(&texel(x, y)[..n_channels]);
     }
     numbers
 }
@@ -55,28 +55,34 @@ fn place(width: usize, x: usize, y: usize) -> usize {
 }
 
 impl Texels {
-    /// Of an image; `matrix` brings its colours to another space, which takes floats.
+    /// Of an image; `matrix` brings its colours to another space, which takes half floats, or floats where the image has them.
     pub(super) fn new(image: &Image, matrix: Option<&[[f32; 3]; 3]>) -> Texels {
         let (width, height) = (image.width, image.height);
-        if let Some(m) = matrix.filter(|_| image.has_colour()) {
-            let converted = |x, y, c: usize| {
-                let [r, g, b] = image.rgb(x, y);
-                m[c][0] * r + m[c][1] * g + m[c][2] * b
-            };
-            let numbers = Numbers::Float(in_blocks([width, height], 3, converted));
-            return Texels { width, height, n_channels: 3, numbers };
-        }
+        let (size, channels) = ([width, height], image.rgb_channels());
         let n_channels = if image.has_colour() { 3 } else { 1 };
-        let channels = image.rgb_channels();
-        let at = |x: usize, y: usize, c: usize| (y * width + x) * image.n_channels() + channels[c];
-        let size = [width, height];
-        let numbers = match &image.pixels {
-            Pixels::U8(v) => {
-                let codes = in_blocks(size, n_channels, |x, y, c| v[at(x, y, c)]);
-                Numbers::Codes(codes, image.encoding.table())
+        let at = |x: usize, y: usize| channels.map(|c| (y * width + x) * image.n_channels() + c);
+        let numbers = if let Some(m) = matrix.filter(|_| image.has_colour()) {
+            let converted = |x, y| {
+                let [r, g, b] = image.rgb(x, y);
+                m.map(|m| m[0] * r + m[1] * g + m[2] * b)
+            };
+            match &image.pixels {
+                Pixels::U8(_) | Pixels::F16(_) => {
+                    Numbers::Half(in_blocks(size, 3, |x, y| converted(x, y).map(f32_to_half)))
+                }
+                Pixels::F32(_) => Numbers::Float(in_blocks(size, 3, converted)),
             }
-            Pixels::F16(v) => Numbers::Half(in_blocks(size, n_channels, |x, y, c| v[at(x, y, c)].to_bits())),
-            Pixels::F32(v) => Numbers::Float(in_blocks(size, n_channels, |x, y, c| v[at(x, y, c)])),
+        } else {
+            match &image.pixels {
+                Pixels::U8(v) => {
+                    let codes = in_blocks(size, n_channels, |x, y| at(x, y).map(|i| v[i]));
+                    Numbers::Codes(codes, image.encoding.table())
+                }
+                Pixels::F16(v) => {
+                    Numbers::Half(in_blocks(size, n_channels, |x, y| at(x, y).map(|i| v[i].to_bits())))
+                }
+                Pixels::F32(v) => Numbers::Float(in_blocks(size, n_channels, |x, y| at(x, y).map(|i| v[i]))),
+            }
         };
         Texels { width, height, n_channels, numbers }
     }
@@ -84,19 +90,21 @@ impl Texels {
     /// Half as wide and high, rounded up: means of four.
     pub(super) fn halved(&self) -> Texels {
         let size = [self.width.div_ceil(2), self.height.div_ceil(2)];
-        let mean = |x: usize, y: usize, c: usize| {
-            let four = [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(dx, dy)| {
-                let (x, y) = ((2 * x + dx).min(self.width - 1), (2 * y + dy).min(self.height - 1));
-                self.rgb(x, y)[c]
-            });
-            four.iter().sum::<f32>() * 0.25
+        let mean = |x: usize, y: usize| {
+            let mut sum = [0.0; 3];
+            for (dx, dy) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
+                let texel = self.rgb((2 * x + dx).min(self.width - 1), (2 * y + dy).min(self.height - 1));
+                sum.iter_mut().zip(texel).for_each(|(s, v)| *s += v);
+            }
+            sum.map(|s| s * 0.25)
         };
+        let n = self.n_channels;
         let numbers = match &self.numbers {
             Numbers::Codes(..) | Numbers::Fixed(_) => {
-                let fixed = |x, y, c| (mean(x, y, c) * FIXED_ONE + 0.5) as u16;
-                Numbers::Fixed(in_blocks(size, self.n_channels, fixed))
+                Numbers::Fixed(in_blocks(size, n, |x, y| mean(x, y).map(|v| (v * FIXED_ONE + 0.5) as u16)))
             }
-            Numbers::Half(_) | Numbers::Float(_) => Numbers::Float(in_blocks(size, self.n_channels, mean)),
+            Numbers::Half(_) => Numbers::Half(in_blocks(size, n, |x, y| mean(x, y).map(f32_to_half))),
+            Numbers::Float(_) => Numbers::Float(in_blocks(size, n, mean)),
         };
         Texels { width: size[0], height: size[1], n_channels: self.n_channels, numbers }
     }
@@ -133,12 +141,21 @@ impl Texels {
     }
 }
 
+/// The exponents of single and half floats are 112 apart, and a product moves them exactly, for denormal numbers too.
+const SHIFT: f32 = f32::from_bits((127 + 112) << 23);
+
+/// Bits of the nearest half float; what is no number becomes zero, and large numbers 65504.
+#[inline]
+fn f32_to_half(v: f32) -> u16 {
+    let bits = (v.abs().min(65_504.0) * (1.0 / SHIFT)).to_bits();
+    let nearest = if v.is_nan() { 0 } else { (bits + 0x0fff + (bits >> 13 & 1)) >> 13 };
+    nearest as u16 | if v < 0.0 { 0x8000 } else { 0 }
+}
+
 /// The value of a half float; infinity and what is no number become numbers above 65504.
 #[inline(always)]
 fn half_to_f32(bits: u16) -> f32 {
-    // The exponents of both formats are 112 apart, and a product moves it exactly, for denormal numbers too.
-    const SCALE: f32 = f32::from_bits((127 + 112) << 23);
-    let magnitude = f32::from_bits(u32::from(bits & 0x7fff) << 13) * SCALE;
+    let magnitude = f32::from_bits(u32::from(bits & 0x7fff) << 13) * SHIFT;
     if bits & 0x8000 != 0 { -magnitude } else { magnitude }
 }
 
@@ -195,7 +212,19 @@ mod tests {
             };
             let value = if bits >> 15 == 1 { -magnitude } else { magnitude };
             assert_eq!(f64::from(half_to_f32(bits)), value, "{bits:#x}");
+            assert_eq!(f32_to_half(half_to_f32(bits)) & 0x7fff, bits & 0x7fff, "{bits:#x}");
         }
+    }
+
+    #[test]
+    fn the_nearest_half_float_is_taken() {
+        for i in 0..100_000 {
+            let v = (i as f32 * 0.618_034).fract() * f32::from_bits((100 + i % 40) << 23);
+            let error = (half_to_f32(f32_to_half(v)) - v).abs();
+            // Half a unit in the last of eleven places, or of the denormal numbers.
+            assert!(error <= v * (1.0 / 2048.0) || error <= f32::from_bits((127 - 25) << 23), "{v} {error}");
+        }
+        assert_eq!([f32::NAN, 1e30, -f32::INFINITY].map(f32_to_half), [0, 0x7bff, 0xfbff]);
     }
 
     #[test]
