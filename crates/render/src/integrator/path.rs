@@ -57,6 +57,7 @@ impl PathIntegrator {
     }
 
     /// Radiance that arrives along `ray`, at the path's wavelengths; `record` is told of each light that is found.
+    #[allow(clippy::too_many_arguments, reason = "what a path needs and what it leaves behind")]
     pub fn radiance(
         &self,
         scene: &Scene,
