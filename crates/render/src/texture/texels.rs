@@ -42,7 +42,7 @@ fn in_blocks<T: Copy + Default>(
     let mut numbers = vec![T::default(); n_blocks * SIDE * SIDE * n_channels];
     for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
         let at = place(width, x, y) * n_channels;
-        numbers[at..at + n_channels].copy_from_slice(&texel(x, y)[..n_channels]);
+        numbers[at..at + n_channels].iter_mut().zip(texel(x, y)).for_each(|(slot, v)| *slot = v);
     }
     numbers
 }
