@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use sparrow_scene::RouletteName;
 
 use crate::film::Film;
-use crate::integrator::{Block, CameraNumbers, CameraSample, Exposed, RayCounts};
+use crate::integrator::{Block, CameraNumbers, CameraSample, Exposed, PathIntegrator, RayCounts};
 use crate::observe::{Observer, TileObserver};
 use crate::plan::RenderPlan;
 use crate::render::{Progress, RenderError, RenderOptions, RenderStats};
@@ -87,6 +87,7 @@ impl Iterator for Samples {
 pub(crate) struct Run<'a> {
     scene: &'a Scene,
     plan: &'a RenderPlan,
+    how: PathIntegrator,
     stop: &'a AtomicBool,
     watch: &'a (dyn Fn(Progress) + Sync),
     start: Instant,
@@ -105,6 +106,7 @@ impl<'a> Run<'a> {
     pub(crate) fn new(
         scene: &'a Scene,
         plan: &'a RenderPlan,
+        how: PathIntegrator,
         options: &RenderOptions,
         stop: &'a AtomicBool,
         watch: &'a (dyn Fn(Progress) + Sync),
@@ -114,7 +116,6 @@ impl<'a> Run<'a> {
             .num_threads(options.threads)
             .build()
             .map_err(|e| RenderError::Threads { threads: options.threads, reason: e.to_string() })?;
-        let how = &plan.integrator;
         // The first bounce is not played for.
         let wanted = how.roulette == RouletteName::Efficiency && how.max_depth > 1 && how.max_smooth > 1;
         let learned = wanted.then(|| pool.install(|| learn(scene, plan)));
@@ -122,6 +123,7 @@ impl<'a> Run<'a> {
             learned,
             scene,
             plan,
+            how,
             stop,
             watch,
             start,
@@ -181,6 +183,7 @@ impl<'a> Run<'a> {
             rays: *lock(&self.rays),
             samples: self.samples(),
             elapsed: self.start.elapsed(),
+            splits: self.how.splits,
             ..RenderStats::default()
         }
     }
@@ -193,26 +196,39 @@ impl<'a> Run<'a> {
         tile: &mut Exposed<'_, T>,
     ) -> RayCounts {
         let mut rays = RayCounts::default();
+        let how = tile.how;
+        let mut parts = Vec::new();
         for (pixel, sample) in samples {
-            let mut sampler = sampler.start(self.plan.in_full_picture(pixel), sample);
-            let numbers = CameraNumbers::new(&sampler);
-            let CameraSample { place, mut lambda, ray } =
-                CameraSample::new(self.scene, self.plan, pixel, &numbers);
-            let mut record = T::Record::default();
-            let integrator = &self.plan.integrator;
+            let start = |sample| sampler.start(self.plan.in_full_picture(pixel), sample);
+            let numbers = CameraNumbers::new(&start(sample));
+            let CameraSample { place, lambda, ray } =
+                CameraSample::new(self.scene, self.plan, pixel, sample, &numbers);
+            parts.clear();
             let roulette = tile.roulette(pixel);
-            let l = integrator.radiance(
-                self.scene,
-                ray,
-                &mut lambda,
-                &mut sampler,
-                &mut rays,
-                &mut record,
-                roulette,
-            );
+            for way in 0..how.splits {
+                let mut sampler = start(self.plan.sample_of_way(sample, way));
+                let (mut lambda, mut record) = (lambda, T::Record::default());
+                let l = how.radiance_of_way(
+                    way,
+                    self.scene,
+                    ray,
+                    &mut lambda,
+                    &mut sampler,
+                    &mut rays,
+                    &mut record,
+                    roulette,
+                );
+                if how.splits == 1 {
+                    tile.take(place, l, &lambda, &record);
+                } else {
+                    parts.push(tile.part(l, &lambda));
+                }
+            }
             rays.camera += 1;
             rays.scattered -= 1;
-            tile.take(place, l, &lambda, &record);
+            if how.splits > 1 {
+                tile.take_parts(place, &parts);
+            }
         }
         rays
     }
@@ -226,7 +242,8 @@ impl<'a> Run<'a> {
         let film = exposure.film().tile(*origin, [TILE, TILE]);
         let observer = exposure.observer.tile(*origin, [TILE, TILE]);
         let [w, h] = film.size();
-        let mut tile = Exposed { plan: self.plan, learned: self.learned.as_ref(), film, observer };
+        let learned = self.learned.as_ref();
+        let mut tile = Exposed { plan: self.plan, how: self.how, learned, film, observer };
         let mut each =
             Samples { first: *origin, width: w, height: h, samples: samples.clone(), next: [0; 3] };
         let rays = if self.plan.one_by_one {

@@ -10,13 +10,16 @@ use crate::sample;
 pub(super) struct Ball {
     pub(super) center: Vec3<f64>,
     pub(super) radius: f64,
+    /// Over the radius in object space.
+    pub(super) scale: f64,
     /// The same for directions drawn to it.
     pub(super) single: sample::Ball,
 }
 
 impl Ball {
-    pub(super) fn new(center: Vec3<f64>, radius: f64) -> Ball {
-        Ball { center, radius, single: sample::Ball::new(center, radius) }
+    pub(super) fn new(center: Vec3<f64>, object_radius: f64, scale: f64) -> Ball {
+        let radius = object_radius * scale;
+        Ball { center, radius, scale, single: sample::Ball::new(center, radius) }
     }
     /// The origin of the ray, seen from the centre, and its direction.
     #[inline(always)]

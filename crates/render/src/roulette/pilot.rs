@@ -28,8 +28,7 @@ pub(crate) fn learn(scene: &Scene, plan: &RenderPlan) -> Learned {
     let trail = |pixel: [u32; 2]| {
         let mut sampler = sampler.start(pixel, 0);
         let numbers = CameraNumbers::new(&sampler);
-        let CameraSample { mut lambda, ray, .. } =
-            CameraSample::in_full_picture(scene, plan, pixel, &numbers);
+        let CameraSample { mut lambda, ray, .. } = CameraSample::of_picture(scene, plan, pixel, &numbers);
         let (mut rays, mut trail) = (RayCounts::default(), Trail::default());
         let how = &plan.integrator;
         how.radiance(scene, ray, &mut lambda, &mut sampler, &mut rays, &mut trail, Roulette::THROUGHPUT);

@@ -28,6 +28,7 @@ pub(crate) struct Setting {
     pub(crate) lights: LightSamplerName,
     pub(crate) sampler: SamplerName,
     pub(crate) roulette: RouletteName,
+    pub(crate) splits: u32,
 }
 
 fn mis(word: &str) -> Mis {
@@ -41,12 +42,14 @@ pub(crate) static SETTINGS: LazyLock<Vec<Setting>> = LazyLock::new(|| {
         lights: LightSamplerName::Bvh,
         sampler: SamplerName::ZSobol,
         roulette: RouletteName::Throughput,
+        splits: 1,
     };
     let heuristics = Mis::EXAMPLES.iter().map(|word| Setting { mis: mis(word), ..usual });
     let lights = all_lights().into_iter().map(|lights| Setting { lights, ..usual });
     let samplers = all_samplers().into_iter().map(|sampler| Setting { sampler, ..usual });
-    let efficiency = Setting { roulette: RouletteName::Efficiency, ..usual };
-    heuristics.chain(lights).chain(samplers).chain([efficiency]).collect()
+    let efficiency = [1, 3].map(|splits| Setting { roulette: RouletteName::Efficiency, splits, ..usual });
+    let split = Mis::EXAMPLES.iter().map(|word| Setting { mis: mis(word), splits: 3, ..usual });
+    heuristics.chain(lights).chain(samplers).chain(efficiency).chain(split).collect()
 });
 
 /// All but the one that every heuristic runs with. A new kind makes the `match` incomplete.
@@ -85,6 +88,7 @@ pub(crate) fn measure(text: &str, setting: Setting, spp: u32, first_seed: u64) -
     let mut desc = describe(text);
     desc.integrator.mis = setting.mis;
     desc.integrator.light_sampler = setting.lights;
+    desc.integrator.splits = Some(setting.splits);
     desc.sampler.name = setting.sampler;
     desc.integrator.roulette = setting.roulette;
     desc.sampler.samples_per_pixel = spp;
@@ -149,6 +153,7 @@ pub(crate) fn try_all(text: &str, true_text: &str, truth: &Truth) -> Vec<Verdict
         lights: LightSamplerName::Uniform,
         sampler: SamplerName::PaddedSobol,
         roulette: RouletteName::Throughput,
+        splits: 1,
     };
     let truth = match truth {
         Truth::Known(v) => {

@@ -64,6 +64,8 @@ pub struct IntegratorDesc {
     pub light_sampler: LightSamplerName,
     /// Widens narrow lobes after the first rough one.
     pub regularize: bool,
+    /// Ways on from the first vertex of each camera sample, from 1 to [`MAX_SPLITS`](Self::MAX_SPLITS); none: as many as are efficient.
+    pub splits: Option<u32>,
     /// How light sampling and BSDF sampling share direct light.
     pub mis: Mis,
     /// MIS compensation of environment lights.
@@ -79,6 +81,11 @@ pub enum RouletteName {
     Throughput,
     /// The same, and what going on is worth and costs, as a pilot finds.
     Efficiency,
+}
+
+impl IntegratorDesc {
+    /// Most ways on from a vertex.
+    pub const MAX_SPLITS: u32 = 64;
 }
 
 /// Names of integrators.

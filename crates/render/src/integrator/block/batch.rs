@@ -90,11 +90,19 @@ struct Numbers {
 
 impl<'a> Batch<'a> {
     /// Draws the uniform numbers of each vertex.
-    pub(super) fn draw<R>(&mut self, sampler: &Sampler, paths: &Paths<'a, R>, vertices: &[u32]) {
+    pub(super) fn draw<R>(
+        &mut self,
+        scene: &Scene,
+        how: &PathIntegrator,
+        sampler: &Sampler,
+        paths: &Paths<'a, R>,
+        vertices: &[u32],
+    ) {
         let at = |&i: &u32| paths.sampler[i as usize].at(light_dimension(paths.depth[i as usize]));
         self.samplers.clear();
         self.samplers.extend(vertices.iter().map(at));
-        self.columns.numbers.fill(sampler, &self.samplers);
+        let choices = scene.lights().len() > 1 || how.mis.takes_turns();
+        self.columns.numbers.fill(sampler, &self.samplers, choices);
     }
 
     /// Draws a light for each vertex, and puts those first that got one.
@@ -119,7 +127,9 @@ impl<'a> Batch<'a> {
             paths.looks[i] = turn.bsdf;
             let at = LitPoint { p: point.p, n: point.ns };
             let choose = || scene.lights().choose(&at, turn.u);
-            match turn.light.then(choose).flatten() {
+            // The light of a first vertex belongs to the first way on.
+            let own = paths.depth[i] > 0 || paths.way[i] == 0;
+            match (own && turn.light).then(choose).flatten() {
                 Some((light, probability)) => {
                     let u = numbers.on_light.each_ref().map(|c| c[j]);
                     self.choices.push(light, LightChoice { vertex: j as u32, path, at, u, probability });
@@ -196,6 +206,7 @@ impl<'a> Batch<'a> {
     /// The next direction of each path; the path ends where there is none, or where roulette says so.
     pub(super) fn scatter<'b, R: Record + Default>(
         &mut self,
+        how: &PathIntegrator,
         paths: &mut Paths<'_, R>,
         points: &[Option<SurfacePoint>],
         roulette: impl Fn([u32; 2]) -> Roulette<'b>,
@@ -222,17 +233,20 @@ impl<'a> Batch<'a> {
             paths.ended[i] = true;
             if let (Some(s), Some(point)) = (sample, &points[i]) {
                 let u = columns.numbers.roulette[self.numbers_of[k] as usize];
-                paths.ended[i] = !paths.go_on(i, point, &s, u, roulette(paths.place[i].pixel));
+                let roulette = roulette(paths.place[i].pixel);
+                paths.ended[i] = !paths.go_on(i, how, point, &s, u, roulette);
             }
         }
     }
 }
 
 impl Numbers {
-    /// Those of vertices whose samplers stand where their dimensions begin.
-    fn fill(&mut self, sampler: &Sampler, paths: &[PixelSampler<'_>]) {
+    /// Those of vertices whose samplers stand where their dimensions begin; those that choose lights only where there are `choices`.
+    fn fill(&mut self, sampler: &Sampler, paths: &[PixelSampler<'_>], choices: bool) {
         let scatter = scatter_dimension(0) - light_dimension(0);
-        sampler.fill_1d(paths, 0, &mut self.light[..]);
+        if choices {
+            sampler.fill_1d(paths, 0, &mut self.light[..]);
+        }
         sampler.fill_2d(paths, 1, self.on_light.each_mut().map(|c| &mut c[..]));
         sampler.fill_1d(paths, scatter, &mut self.lobe[..]);
         sampler.fill_2d(paths, scatter + 1, self.direction.each_mut().map(|c| &mut c[..]));

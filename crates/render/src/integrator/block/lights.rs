@@ -66,9 +66,11 @@ impl LightChoices {
         for (light, chosen) in (0..self.by_light.len()).map(|i| self.by_light.batch(i)) {
             let choice = |k: usize| &self.all[chosen[k] as usize];
             let of = |k: usize| &lambda[choice(k).path as usize];
-            let mut put = |k: usize, s: Option<LightSample>| {
-                let probability = choice(k).probability;
-                put(choice(k), s.map(|s| LightSample { pdf: s.pdf * probability, ..s }));
+            let mut put = |k: usize, mut s: Option<LightSample>| {
+                if let Some(s) = &mut s {
+                    s.pdf *= choice(k).probability;
+                }
+                put(choice(k), s);
             };
             let n = chosen.len();
             let mut together = || {
