@@ -9,7 +9,7 @@
 //! q = beta / I sqrt(M / C) sqrt(C_I / V)
 //! ```
 //!
-//! [Rath2022] choose splitting in the same way; here nothing is split. [`Learned`] has what a pilot found of each. Few paths do not know of
+//! [Rath2022] choose splitting in the same way, which here is done apart. [`Learned`] has what a pilot found of each, without splits. Few paths do not know of
 //! rare bright light, and ending those that would find it doubled the error behind rough glass. So a path goes on at least with the
 //! probability that its throughput gives: efficiency makes paths longer where that pays, and no weight is larger than without it.
 //!
