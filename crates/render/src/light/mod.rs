@@ -198,13 +198,13 @@ impl Lights {
     ) -> bool {
         let Light::Area { shape, prim, .. } = self.lights[light as usize] else { return false };
         geometry.sample_from_many(shape, prim, columns, n, |k, s| {
-            put(k, s.and_then(|s| self.from_surface(light, s, lambda(k))));
+            put(k, s.and_then(|s| self.of_surface(light, s, lambda(k))));
         })
     }
 
     /// What the light of a primitive sends from a point drawn on it; none to the side that does not shine.
     #[inline]
-    fn from_surface(&self, light: u32, s: ShapeSample, w: &Wavelengths) -> Option<LightSample> {
+    fn of_surface(&self, light: u32, s: ShapeSample, w: &Wavelengths) -> Option<LightSample> {
         let Light::Area { emission, scale, two_sided, .. } = &self.lights[light as usize] else {
             return None;
         };
@@ -228,7 +228,7 @@ impl Lights {
     ) -> Option<LightSample> {
         match &self.lights[light as usize] {
             Light::Area { shape, prim, .. } => {
-                self.from_surface(light, geometry.sample_from(*shape, *prim, at.viewpoint(), u)?, w)
+                self.of_surface(light, geometry.sample_from(*shape, *prim, at.viewpoint(), u)?, w)
             }
             Light::Point { p, emission, scale } => self.point_sample(*p, at, *emission, *scale, w),
             Light::Spot { p, to_light, cos_end, cos_start, emission, scale } => {
