@@ -84,6 +84,11 @@ pub(crate) struct RenderArgs {
     #[arg(long, value_name = "N")]
     pub(crate) max_depth: Option<u32>,
 
+    /// Ways on from the first vertex of each camera sample; 0 for as many as are efficient, which a pilot of a few thousand
+    /// paths finds [default: the scene's "splits", 0 where it says nothing]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=i64::from(sparrow_scene::IntegratorDesc::MAX_SPLITS)))]
+    pub(crate) splits: Option<u32>,
+
     /// How light sampling and BSDF sampling are weighted: balance, power (exponent 2), power:BETA, cutoff:A,
     /// maximum, average, optimal (learned for what the camera sees first), one-sample, light-only or bsdf-only [default: the scene's, power where it names none]
     #[arg(long, value_name = "NAME", value_parser = parse_mis)]

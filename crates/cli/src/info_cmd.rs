@@ -55,6 +55,9 @@ fn text(info: &Inventory) -> String {
     let i = &info.integrator;
     let mut integrator =
         format!("{}, maxdepth {}, mis {}, light sampler {}", i.name, i.max_depth, i.mis, i.light_sampler);
+    if let Some(n) = i.splits {
+        let _ = write!(integrator, ", {n} ways on from the first vertex");
+    }
     for (on, word) in [(i.mis_compensation, "MIS compensation"), (i.regularize, "regularized")] {
         if on {
             let _ = write!(integrator, ", {word}");

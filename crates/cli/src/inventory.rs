@@ -149,6 +149,8 @@ pub(crate) struct Sampler {
 pub(crate) struct Integrator {
     pub(crate) name: &'static str,
     pub(crate) max_depth: u32,
+    /// As many as are efficient, where there is none.
+    pub(crate) splits: Option<u32>,
     pub(crate) mis: String,
     pub(crate) mis_compensation: bool,
     pub(crate) light_sampler: &'static str,
@@ -185,6 +187,7 @@ impl Inventory {
             integrator: Integrator {
                 name: names::integrator(desc.integrator.name),
                 max_depth: desc.integrator.max_depth,
+                splits: desc.integrator.splits,
                 mis: desc.integrator.mis.to_string(),
                 mis_compensation: desc.integrator.mis_compensation,
                 light_sampler: names::light_sampler(desc.integrator.light_sampler),

@@ -172,6 +172,7 @@ fn attributes(stats: &Stats, camera: &Camera) -> Vec<(String, Attribute)> {
         ("renderSeconds", Attribute::Double(stats.times.render_seconds)),
         ("integrator", text(stats.integrator)),
         ("maxDepth", whole(stats.max_depth)),
+        ("splits", whole(stats.splits)),
         ("mis", text(&stats.mis)),
         ("lightSampler", text(stats.light_sampler)),
         ("colourMode", text(stats.colour)),

@@ -40,6 +40,9 @@ pub(crate) fn apply(args: &RenderArgs, desc: &mut SceneDesc) {
         None => {}
     }
     integrator.max_depth = args.max_depth.unwrap_or(integrator.max_depth);
+    if let Some(splits) = args.splits {
+        integrator.splits = (splits > 0).then_some(splits);
+    }
     if let Some(mis) = args.mis {
         integrator.mis = mis;
     }
@@ -136,10 +139,11 @@ mod tests {
     #[test]
     fn options_win_over_the_scene() {
         let scene = "Sampler \"stratified\" \"integer xsamples\" 3 \"integer ysamples\" 3 \"integer seed\" 5\n\
-                     Integrator \"path\" \"integer maxdepth\" 9 \"string lightsampler\" \"uniform\" \"bool samplelights\" false";
+                     Integrator \"path\" \"integer maxdepth\" 9 \"string lightsampler\" \"uniform\" \"bool samplelights\" false \"integer splits\" 4";
         let untouched = after(scene, "");
         assert_eq!((untouched.sampler.strata, untouched.sampler.seed), ([3, 3], Some(5)));
-        assert_eq!(untouched.integrator.max_depth, 9);
+        assert_eq!((untouched.integrator.max_depth, untouched.integrator.splits), (9, Some(4)));
+        assert_eq!([0, 3].map(|n| after(scene, &format!("--splits {n}")).integrator.splits), [None, Some(3)]);
         let desc = after(
             scene,
             "--spp 24 --seed 7 --colour rgb --max-depth 0 --integrator directlighting --mis power:1.5 --lightsampler power \

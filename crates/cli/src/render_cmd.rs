@@ -253,6 +253,7 @@ fn fill(stats: &mut Stats, scene: &Scene, film_bytes: usize, did: &RenderStats) 
     stats.stopped = did.stopped;
     stats.samples = did.samples;
     stats.samples_per_pixel = did.samples_per_pixel;
+    stats.splits = did.splits;
     stats.rejected_samples = did.rejected;
     stats.rays = did.rays.into();
     stats.samples_per_second = did.samples as f64 / seconds;
@@ -301,8 +302,12 @@ fn ending(out: &Outputs, stats: &Stats) -> String {
         Some(noise) => noise.to_string(),
         None => format!("{} samples per pixel", stats.samples_per_pixel),
     };
+    let ways = match stats.splits {
+        0 | 1 => String::new(),
+        n => format!(", {n} ways on from each"),
+    };
     format!(
-        "wrote {} and {}{how}: {samples} in {time}, {}rays/s",
+        "wrote {} and {}{how}: {samples}{ways} in {time}, {}rays/s",
         out.exr.display(),
         out.png.display(),
         si(stats.rays_per_second)

@@ -85,6 +85,8 @@ pub(crate) struct Stats {
     pub(crate) pixel_bounds: [u32; 4],
     pub(crate) integrator: &'static str,
     pub(crate) max_depth: u32,
+    /// Ways on from the first vertex of each camera sample.
+    pub(crate) splits: u32,
     pub(crate) mis: String,
     pub(crate) light_sampler: &'static str,
     pub(crate) colour: &'static str,
@@ -130,6 +132,7 @@ impl Stats {
             pixel_bounds: desc.film.pixel_bounds,
             integrator: names::integrator(integrator.name),
             max_depth: integrator.max_depth,
+            splits: integrator.splits.unwrap_or(0),
             mis: integrator.mis.to_string(),
             light_sampler: names::light_sampler(integrator.light_sampler),
             colour: names::colour(desc.film.colour),

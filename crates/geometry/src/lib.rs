@@ -22,5 +22,5 @@ pub use geometry::{BuildStats, Geometry};
 pub use instance::{Instance, MovingInstance};
 pub use point::{ShapeSample, SurfacePoint};
 pub use ray::{Hit, Ray};
-pub use sample::Viewpoint;
+pub use sample::{SampleColumns, Viewpoint};
 pub use shape::{BilinearMesh, CurveBasis, CurveKind, CurveSet, Shape, ShapeInstance, TriangleMesh};

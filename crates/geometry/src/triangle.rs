@@ -233,7 +233,7 @@ impl Triangles {
         };
         let (u, density) = match follow_cosine(&t, from) {
             Some(warp) => {
-                let u = warp.sample(u);
+                let u = warp.sample(u.map(f64::from));
                 (u, warp.pdf(u))
             }
             None => (u.map(f64::from), 1.0),
@@ -262,9 +262,9 @@ impl Triangles {
 }
 
 /// The density of the unit square by which directions to a triangle follow the cosine at the viewpoint.
-fn follow_cosine(t: &SphericalTriangle, from: &Viewpoint) -> Option<Bilinear> {
-    let n = from.n.filter(|_| WARPED.contains(&t.solid_angle))?;
-    Some(Bilinear::of_cosines(n, t.square()))
+fn follow_cosine(t: &SphericalTriangle, from: &Viewpoint) -> Option<Bilinear<f64>> {
+    let n = from.n.filter(|_| WARPED.contains(&t.solid_angle))?.to_f64();
+    Some(Bilinear::of_cosines(t.square().map(|d| n.dot(d))))
 }
 
 /// The triangle on the sphere around `from`, if it is to be drawn by solid angle.

@@ -46,6 +46,11 @@ impl Mis {
             Mis::BsdfOnly => Turn { light: false, ..both },
         }
     }
+    /// Whether [`turn`](Self::turn) asks the uniform number.
+    #[inline]
+    pub fn takes_turns(self) -> bool {
+        self == Mis::OneSample
+    }
     /// Weight of a light sample, over the chance of its turn: density `p_light` against `p_bsdf`, both per steradian.
     #[inline]
     pub fn light_weight(self, p_light: f32, p_bsdf: f32) -> f32 {

@@ -26,6 +26,7 @@ pub mod sampler;
 mod scatter;
 mod scene;
 mod spectrum;
+mod splitting;
 mod texture;
 
 pub use adaptive::render_to_noise;

@@ -18,6 +18,9 @@ pub struct RenderPlan {
     pub sensor: FilmSensor,
     /// Light transport.
     pub integrator: PathIntegrator,
+    /// Ways on from the first vertex of each camera sample; none: as many as are efficient. Renders that look at each technique or learn
+    /// from it take one.
+    pub splits: Option<u32>,
     /// Paths are followed one by one, by the loop that is the reference; to the same bits.
     pub one_by_one: bool,
     /// The part of the picture that is rendered: `x0 x1 y0 y1`, ends excluded.
@@ -102,11 +105,18 @@ impl RenderPlan {
             filter: FilterSampler::new(&filter(desc.filter)),
             sensor: FilmSensor { carrier, to_output, response, max_component: film.max_component_value },
             integrator: PathIntegrator::new(&desc.integrator),
+            splits: desc.integrator.splits,
             one_by_one: desc.integrator.name == IntegratorName::Reference,
             bounds: film.pixel_bounds,
             samples_per_pixel: sampler.samples_per_pixel(),
             sampler,
         })
+    }
+
+    /// The number of the sample that a further way on of a camera sample takes its points from.
+    #[inline]
+    pub(crate) fn sample_of_way(&self, sample: u32, way: u32) -> u32 {
+        sample.wrapping_add(way.wrapping_mul(self.samples_per_pixel))
     }
 
     /// A pixel of the part that is rendered, counted in the full picture.

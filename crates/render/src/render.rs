@@ -53,6 +53,8 @@ pub struct RenderStats {
     pub noise: Option<f64>,
     /// It was stopped before its end.
     pub stopped: bool,
+    /// Ways on from the first vertex of each camera sample.
+    pub splits: u32,
     /// Samples that were no numbers and were left out.
     pub rejected: u64,
     /// Time taken.
@@ -128,7 +130,9 @@ fn observed<O: Observer>(
     watch: Watch<'_>,
     observer: &O,
 ) -> Result<(Film, RenderStats), RenderError> {
-    let run = Run::new(scene, plan, options, stop, watch)?;
+    let how = if O::WHOLE_PATHS { plan.integrator } else { plan.integrator.split(scene, plan) };
+    let points = plan.sampler_of_ways(plan.sampler.config(), how.splits);
+    let run = Run::new(scene, plan, how, options, stop, watch)?;
     let [width, height] = plan.size();
     let mut film = Film::new(width, height, options.variance);
     let origins = run.origins();
@@ -138,8 +142,8 @@ fn observed<O: Observer>(
     let mut pass = 1;
     while done < plan.samples_per_pixel && !run.ended() {
         let n = pass.min(plan.samples_per_pixel - done);
-        let own = if O::LEARNS { points_of_pass(&plan.sampler, done, n) } else { None };
-        let (sampler, samples) = own.as_ref().map_or((&plan.sampler, done..done + n), |s| (s, 0..n));
+        let own = if O::LEARNS { points_of_pass(&points, done, n) } else { None };
+        let (sampler, samples) = own.as_ref().map_or((&points, done..done + n), |s| (s, 0..n));
         let exposure = Exposure::observed(sampler, film, observer);
         let job = |&origin| Job { exposure: &exposure, origin, samples: samples.clone() };
         let whole = run.pass(&origins.iter().map(job).collect::<Vec<Job<'_, O>>>())?;

@@ -8,7 +8,7 @@ use std::time::Instant;
 use rayon::prelude::*;
 
 use crate::film::Film;
-use crate::integrator::{Block, CameraNumbers, CameraSample, Exposed, RayCounts};
+use crate::integrator::{Block, CameraNumbers, CameraSample, Exposed, PathIntegrator, RayCounts};
 use crate::observe::{Observer, TileObserver};
 use crate::plan::RenderPlan;
 use crate::render::{Progress, RenderError, RenderOptions, RenderStats};
@@ -85,6 +85,7 @@ impl Iterator for Samples {
 pub(crate) struct Run<'a> {
     scene: &'a Scene,
     plan: &'a RenderPlan,
+    how: PathIntegrator,
     stop: &'a AtomicBool,
     watch: &'a (dyn Fn(Progress) + Sync),
     start: Instant,
@@ -102,6 +103,7 @@ impl<'a> Run<'a> {
     pub(crate) fn new(
         scene: &'a Scene,
         plan: &'a RenderPlan,
+        how: PathIntegrator,
         options: &RenderOptions,
         stop: &'a AtomicBool,
         watch: &'a (dyn Fn(Progress) + Sync),
@@ -114,6 +116,7 @@ impl<'a> Run<'a> {
         Ok(Run {
             scene,
             plan,
+            how,
             stop,
             watch,
             start,
@@ -173,6 +176,7 @@ impl<'a> Run<'a> {
             rays: *lock(&self.rays),
             samples: self.samples(),
             elapsed: self.start.elapsed(),
+            splits: self.how.splits,
             ..RenderStats::default()
         }
     }
@@ -185,17 +189,37 @@ impl<'a> Run<'a> {
         tile: &mut Exposed<'_, T>,
     ) -> RayCounts {
         let mut rays = RayCounts::default();
+        let how = tile.how;
+        let mut parts = Vec::new();
         for (pixel, sample) in samples {
-            let mut sampler = sampler.start(self.plan.in_full_picture(pixel), sample);
-            let numbers = CameraNumbers::new(&sampler);
-            let CameraSample { place, mut lambda, ray } =
-                CameraSample::new(self.scene, self.plan, pixel, &numbers);
-            let mut record = T::Record::default();
-            let integrator = &self.plan.integrator;
-            let l = integrator.radiance(self.scene, ray, &mut lambda, &mut sampler, &mut rays, &mut record);
+            let start = |sample| sampler.start(self.plan.in_full_picture(pixel), sample);
+            let numbers = CameraNumbers::new(&start(sample));
+            let CameraSample { place, lambda, ray } =
+                CameraSample::new(self.scene, self.plan, pixel, sample, &numbers);
+            parts.clear();
+            for way in 0..how.splits {
+                let mut sampler = start(self.plan.sample_of_way(sample, way));
+                let (mut lambda, mut record) = (lambda, T::Record::default());
+                let l = how.radiance_of_way(
+                    way,
+                    self.scene,
+                    ray,
+                    &mut lambda,
+                    &mut sampler,
+                    &mut rays,
+                    &mut record,
+                );
+                if how.splits == 1 {
+                    tile.take(place, l, &lambda, &record);
+                } else {
+                    parts.push(tile.part(l, &lambda));
+                }
+            }
             rays.camera += 1;
             rays.scattered -= 1;
-            tile.take(place, l, &lambda, &record);
+            if how.splits > 1 {
+                tile.take_parts(place, &parts);
+            }
         }
         rays
     }
@@ -209,7 +233,7 @@ impl<'a> Run<'a> {
         let film = exposure.film().tile(*origin, [TILE, TILE]);
         let observer = exposure.observer.tile(*origin, [TILE, TILE]);
         let [w, h] = film.size();
-        let mut tile = Exposed { plan: self.plan, film, observer };
+        let mut tile = Exposed { plan: self.plan, how: self.how, film, observer };
         let mut each =
             Samples { first: *origin, width: w, height: h, samples: samples.clone(), next: [0; 3] };
         let rays = if self.plan.one_by_one {

@@ -175,7 +175,12 @@ impl Scene {
         hits.clear();
         hits.resize(rays.len(), None);
         self.geometry.intersect_many(rays, hits);
-        points.extend(rays.iter().zip(hits).map(|(ray, hit)| Some(self.geometry.surface(ray, &(*hit)?))));
+        for (ray, hit) in rays.iter().zip(hits) {
+            match hit {
+                Some(hit) => points.push(Some(self.geometry.surface(ray, hit))),
+                None => points.push(None),
+            }
+        }
     }
 
     /// [`occluded`](Self::occluded) for each of `rays`, into as many places of `out`.

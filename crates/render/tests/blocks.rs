@@ -140,9 +140,12 @@ fn all_kinds_of_matter_and_light_agree() {
 #[test]
 fn every_heuristic_agrees() {
     for mis in sparrow_mis::Mis::EXAMPLES {
-        let mut desc = everything(false);
-        desc.integrator.mis = mis.parse().expect("a heuristic");
-        agree(desc, mis);
+        for splits in [1, 3] {
+            let mut desc = everything(false);
+            desc.integrator.mis = mis.parse().expect("a heuristic");
+            desc.integrator.splits = Some(splits);
+            agree(desc, &format!("{mis}, {splits} ways on"));
+        }
     }
 }
 

@@ -52,9 +52,9 @@ fn help_and_version_are_no_errors() {
     assert!(s.run("--version").ok().out.starts_with("sparrow "));
     let help = s.run("render --help").ok().out;
     let options = help.lines().filter(|l| l.trim_start().starts_with("--") || l.contains("-o, --"));
-    assert_eq!(options.count(), 21, "{help}");
+    assert_eq!(options.count(), 22, "{help}");
     // Help, version and the scene have no default.
-    assert_eq!(help.matches("[default:").count(), 21, "every option says its default: {help}");
+    assert_eq!(help.matches("[default:").count(), 22, "every option says its default: {help}");
     assert!(s.run("").out.contains("Usage: sparrow"));
 }
 

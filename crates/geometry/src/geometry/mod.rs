@@ -12,7 +12,7 @@ use crate::bvh::{Bvh, Few, MAX_PRIMS};
 use crate::instance::{Instance, Instances, MovingInstance};
 use crate::point::{ShapeSample, SurfacePoint};
 use crate::ray::{Hit, Ray};
-use crate::sample::{Viewpoint, per_steradian};
+use crate::sample::{SampleColumns, Viewpoint, per_steradian};
 use crate::shape::ShapeInstance;
 
 /// What building cost and gave.
@@ -199,7 +199,25 @@ impl Geometry {
             Body::Triangles(m) => m.sample_from(prim, from, u),
             Body::Patches(m) => m.sample_from(prim, from, u),
             Body::Curves(_) => None,
-            Body::Quadric(q) => q.as_ref()?.sample_from(from.p, u),
+            Body::Quadric(q) => q.as_ref()?.sample_from(from, u),
+        }
+    }
+    /// [`sample_from`](Self::sample_from) from each of the first `n` viewpoints of `columns`, in lanes, to the bit; `put` is given the
+    /// number of each and what was drawn. False, and nothing done, where such primitives are drawn one by one.
+    ///
+    /// Panics where columns are shorter than `n`, rounded up to whole registers.
+    pub fn sample_from_many(
+        &self,
+        shape: u32,
+        prim: u32,
+        columns: &mut SampleColumns<'_>,
+        n: usize,
+        put: impl FnMut(usize, Option<ShapeSample>),
+    ) -> bool {
+        match self.body(shape) {
+            Some(Body::Patches(m)) => m.sample_from_many(prim, columns, n, put),
+            Some(Body::Quadric(Some(q))) => q.sample_from_many(columns, n, put),
+            Some(Body::Triangles(_) | Body::Curves(_) | Body::Quadric(None)) | None => false,
         }
     }
     /// Density per steradian with which [`sample_from`](Self::sample_from) draws the direction that met the primitive at

@@ -4,7 +4,7 @@ use sparrow_math::Vec3;
 
 use super::Bilinear;
 use crate::bvh::gamma;
-use crate::sample::Edges;
+use crate::sample::{Edges, Rectangle};
 
 /// A parallelogram, with what its points have in common worked out once.
 #[derive(Clone, Copy, Debug)]
@@ -15,8 +15,8 @@ pub(super) struct Flat {
     pub(super) n: Vec3<f32>,
     /// Bound of the rounding error of a point.
     pub(super) p_error: Vec3<f32>,
-    /// Its angles are right ones.
-    pub(super) is_rectangle: bool,
+    /// The same for directions drawn to it, if its angles are right ones.
+    pub(super) rectangle: Option<Rectangle>,
 }
 
 /// Bound of the rounding error of a point, which covers what a parallelogram is taken to be flat.
@@ -38,7 +38,7 @@ impl Flat {
             area: edges.area(),
             n: if flip { -n } else { n }.to_f32(),
             p_error: p_error(p),
-            is_rectangle: e.dot(f).abs() <= 1e-5 * e.length() * f.length(),
+            rectangle: (e.dot(f).abs() <= 1e-5 * e.length() * f.length()).then(|| Rectangle::new(&edges)),
         }
     }
     /// The point at parameters of the patch.
@@ -47,11 +47,17 @@ impl Flat {
         let [lx, ly] = self.edges.lengths;
         self.edges.at([f64::from(u) * lx, f64::from(v) * ly]).to_f32()
     }
-    /// The parameters of the point that lies so far along the edges.
+    /// The parameters of a point of the parallelogram.
+    pub(super) fn parameters_of(&self, p: Vec3<f32>) -> [f32; 2] {
+        let Edges { corner, axes: [ax, ay], lengths: [lx, ly] } = self.edges;
+        let at = p.to_f64() - corner;
+        [(at.dot(ax) / lx) as f32, (at.dot(ay) / ly) as f32]
+    }
+    /// Bound of the rounding error of a point that is drawn in single precision: thirteen roundings of the largest coordinate,
+    /// and what [`p_error`] covers.
     #[inline(always)]
-    pub(super) fn parameters(&self, [x, y]: [f64; 2]) -> [f32; 2] {
-        let [lx, ly] = self.edges.lengths;
-        [x as f32 / lx as f32, y as f32 / ly as f32]
+    pub(super) fn p_error_of_samples(&self) -> Vec3<f32> {
+        self.p_error * 4.0
     }
     /// Derivatives of the point by the parameters.
     #[inline(always)]

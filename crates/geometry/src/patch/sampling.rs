@@ -6,13 +6,10 @@ use super::flat::Flat;
 use super::surface::Place;
 use super::{Bilinear, Kind, Patches};
 use crate::point::ShapeSample;
-use crate::sample::{Bilinear as Density, SphericalRectangle, Viewpoint, WARPED, direction, seen_from};
-
-/// Rectangles are drawn by area where they fill less of the sphere than this; value of pbrt-v4.
-const MIN_SOLID_ANGLE: f64 = 1e-4;
+use crate::sample::{Bilinear as Density, Draw, Drawn, Rectangle, SampleColumns, Viewpoint, seen_from};
 
 /// Close to uniform by area: the area elements at the corners.
-fn by_area(p: &Bilinear) -> Density {
+fn by_area(p: &Bilinear) -> Density<f64> {
     Density::new([p.stretch(0.0, 0.0), p.stretch(1.0, 0.0), p.stretch(0.0, 1.0), p.stretch(1.0, 1.0)])
 }
 
@@ -51,25 +48,45 @@ impl Patches {
         self.usable(prim)?;
         let patch = self.bilinear(prim);
         let density = by_area(&patch);
-        let [u, v] = density.sample(u);
+        let [u, v] = density.sample(u.map(f64::from));
         let pdf = density.pdf([u, v]) / patch.stretch(u, v);
         pdf.is_finite().then(|| self.sample_at(prim, [u as f32, v as f32], pdf))
     }
+    /// The rectangle to which directions are drawn, if the patch is one.
+    #[inline]
+    fn rectangle(&self, prim: u32) -> Option<(&Flat, &Rectangle)> {
+        let flat = self.flat(prim)?;
+        Some((flat, flat.rectangle.as_ref()?))
+    }
+    #[inline]
+    fn drawn(&self, prim: u32, flat: &Flat, drawn: &Drawn<f32>) -> Option<ShapeSample> {
+        let n = if self.mesh.n.is_empty() {
+            flat.n
+        } else {
+            let [u, v] = flat.parameters_of(drawn.p);
+            self.shading_normal(prim, u, v).map_or(flat.n, |ns| flat.n.facing(ns))
+        };
+        drawn.sample(flat.p_error_of_samples(), n)
+    }
     #[inline]
     pub(crate) fn sample_from(&self, prim: u32, from: &Viewpoint, u: [f32; 2]) -> Option<ShapeSample> {
-        let Some((flat, r)) = self.flat(prim).and_then(|f| Some((f, by_solid_angle(f, from.p)?))) else {
-            return seen_from(self.sample_area(prim, u)?, from.p);
-        };
-        let (u, density) = match follow_cosine(flat, &r, from) {
-            Some(warp) => {
-                let u = warp.sample(u);
-                (u, warp.pdf(u))
-            }
-            None => (u.map(f64::from), 1.0),
-        };
-        let s = self.sample_at(prim, flat.parameters(r.sample(u)), density / r.solid_angle);
-        let (wi, distance) = direction(from.p, s.p)?;
-        Some(ShapeSample { wi, distance, ..s })
+        match self.rectangle(prim) {
+            Some((flat, r)) => self.drawn(prim, flat, &r.draw_one(from, u)),
+            None => seen_from(self.sample_area(prim, u)?, from.p),
+        }
+    }
+    /// [`sample_from`](Self::sample_from) from each of `n` viewpoints; false where the patch is no rectangle.
+    pub(crate) fn sample_from_many(
+        &self,
+        prim: u32,
+        columns: &mut SampleColumns<'_>,
+        n: usize,
+        mut put: impl FnMut(usize, Option<ShapeSample>),
+    ) -> bool {
+        let Some((flat, r)) = self.rectangle(prim) else { return false };
+        columns.draw(r, n);
+        (0..n).for_each(|k| put(k, self.drawn(prim, flat, &columns.get(k))));
+        true
     }
     /// Density per steradian of [`sample_from`](Self::sample_from) for a direction that met the patch at `hit_p`
     /// with normal `hit_n`; `per_area` turns densities per area into it.
@@ -81,12 +98,11 @@ impl Patches {
         hit_n: Vec3<f32>,
         per_area: impl Fn(f64) -> f32,
     ) -> f32 {
+        if let Some((_, r)) = self.rectangle(prim) {
+            return r.pdf(from.p, from.n, hit_p);
+        }
         if let Some(flat) = self.flat(prim) {
-            let Some(r) = by_solid_angle(flat, from.p) else { return per_area(1.0 / flat.area) };
-            let at = hit_p.to_f64() - flat.edges.corner;
-            let density = follow_cosine(flat, &r, from)
-                .map_or(1.0, |warp| warp.pdf(r.invert(flat.edges.axes.map(|a| at.dot(a)))));
-            return (density / r.solid_angle) as f32;
+            return per_area(1.0 / flat.area);
         }
         if self.usable(prim).is_none() {
             return 0.0;
@@ -100,23 +116,4 @@ impl Patches {
             per_area(by_area(&patch).pdf([u, v]) / patch.stretch(u, v))
         })
     }
-}
-
-/// The rectangle on the sphere around `from`, if it is to be drawn by solid angle.
-#[inline]
-fn by_solid_angle(flat: &Flat, from: Vec3<f32>) -> Option<SphericalRectangle> {
-    if !flat.is_rectangle {
-        return None;
-    }
-    let r = SphericalRectangle::new(&flat.edges, from.to_f64());
-    (r.solid_angle >= MIN_SOLID_ANGLE).then_some(r)
-}
-
-/// The density of the unit square by which directions to a rectangle follow the cosine at the viewpoint.
-#[inline]
-fn follow_cosine(flat: &Flat, r: &SphericalRectangle, from: &Viewpoint) -> Option<Density> {
-    let n = from.n.filter(|_| WARPED.contains(&r.solid_angle))?;
-    let [lx, ly] = flat.edges.lengths;
-    let corners = [[0.0, 0.0], [lx, 0.0], [0.0, ly], [lx, ly]];
-    Some(Density::of_cosines(n, corners.map(|at| flat.edges.at(at) - from.p.to_f64())))
 }

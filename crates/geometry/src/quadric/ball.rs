@@ -3,15 +3,24 @@
 use sparrow_math::Vec3;
 
 use crate::ray::Ray;
+use crate::sample;
 
 /// Centre and radius in world space: such a sphere needs no object space to be met.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Ball {
     pub(super) center: Vec3<f64>,
     pub(super) radius: f64,
+    /// Over the radius in object space.
+    pub(super) scale: f64,
+    /// The same for directions drawn to it.
+    pub(super) single: sample::Ball,
 }
 
 impl Ball {
+    pub(super) fn new(center: Vec3<f64>, object_radius: f64, scale: f64) -> Ball {
+        let radius = object_radius * scale;
+        Ball { center, radius, scale, single: sample::Ball::new(center, radius) }
+    }
     /// The origin of the ray, seen from the centre, and its direction.
     #[inline(always)]
     fn line(&self, ray: &Ray) -> (Vec3<f64>, Vec3<f64>) {

@@ -147,19 +147,7 @@ impl Form {
     pub(super) fn local(&self, p: Vec3<f64>) -> Local {
         let around = |p: Vec3<f64>, phi_max: f64| (share_of_turn(p, phi_max), vec3(-p.y, p.x, 0.0) * phi_max);
         match *self {
-            Form::Sphere { r, theta, phi_max, .. } => {
-                let n = p.normalized();
-                let p = n * r;
-                // At a pole the azimuth is anyone's choice; this is pbrt-v4's.
-                let near = if p.x == 0.0 && p.y == 0.0 { vec3(1e-5 * r, 0.0, p.z) } else { p };
-                let (u, dpdu) = around(near, phi_max);
-                let range = theta[1] - theta[0];
-                let rho = (near.x * near.x + near.y * near.y).sqrt();
-                let v = (Real::atan2(rho as f32, p.z as f32) - theta[0] as f32) / range as f32;
-                let slope = p.z / rho;
-                let dpdv = vec3(slope * near.x, slope * near.y, -rho) * range;
-                Local { p, n, uv: [u, v], dpdu, dpdv }
-            }
+            Form::Sphere { .. } => self.local_of_normal(p.normalized()),
             Form::Cylinder { r, z, phi_max } => {
                 let rho = (p.x * p.x + p.y * p.y).sqrt();
                 let n = vec3(p.x / rho, p.y / rho, 0.0);
@@ -179,6 +167,28 @@ impl Form {
                 let uv = [u, ((r - rho) / (r - inner)) as f32];
                 Local { p, n: vec3(0.0, 0.0, 1.0), uv, dpdu, dpdv: out * (inner - r) }
             }
+        }
+    }
+
+    /// What is known of the point of a sphere with that unit normal; meaningless for other forms.
+    #[inline]
+    pub(super) fn local_of_normal(&self, n: Vec3<f64>) -> Local {
+        let Form::Sphere { r, theta, phi_max, .. } = *self else {
+            return Local { p: n, n, uv: [0.0; 2], dpdu: n, dpdv: n };
+        };
+        let p = n * r;
+        // At a pole the azimuth is anyone's choice; this is pbrt-v4's.
+        let near = if p.x == 0.0 && p.y == 0.0 { vec3(1e-5 * r, 0.0, p.z) } else { p };
+        let range = theta[1] - theta[0];
+        let rho = (near.x * near.x + near.y * near.y).sqrt();
+        let v = (Real::atan2(rho as f32, p.z as f32) - theta[0] as f32) / range as f32;
+        let slope = p.z / rho;
+        Local {
+            p,
+            n,
+            uv: [share_of_turn(near, phi_max), v],
+            dpdu: vec3(-near.y, near.x, 0.0) * phi_max,
+            dpdv: vec3(slope * near.x, slope * near.y, -rho) * range,
         }
     }
 

@@ -49,7 +49,7 @@ impl Quadric {
         q.ball = q
             .form
             .whole_radius()
-            .and_then(|r| Some(Ball { center: to.point(Vec3::splat(0.0)), radius: r * to.uniform_scale()? }));
+            .and_then(|r| Some(Ball::new(to.point(Vec3::splat(0.0)), r, to.uniform_scale()?)));
         q.area = q.world_area();
         let b = q.bounds();
         (q.area > 0.0 && q.area.is_finite() && b.lo.is_finite() && b.hi.is_finite()).then_some(q)
@@ -111,7 +111,7 @@ impl Quadric {
     /// The point of the quadric that the tree found at `t`.
     fn local(&self, ray: &Ray, t: f32) -> Local {
         if let Some(ball) = &self.ball {
-            return self.form.local(self.to_object.vector(ball.outward(ray, t)));
+            return self.local_on_ball(ball, ball.outward(ray, t));
         }
         let (o, d) = self.to_local(ray);
         // The root itself, not its rounded value, which may lie far off the surface.
@@ -124,6 +124,10 @@ impl Quadric {
         self.form.local(o + d * nearest)
     }
 
+    #[inline]
+    fn local_on_ball(&self, ball: &Ball, out: Vec3<f64>) -> Local {
+        self.form.local_of_normal(self.to_object.vector(out) * ball.scale)
+    }
     /// The point of a ball in direction `out` from its centre, and its normal there, in the world.
     #[inline]
     fn on_ball(&self, ball: &Ball, out: Vec3<f64>) -> (Vec3<f64>, Vec3<f64>) {
@@ -147,7 +151,7 @@ impl Quadric {
             Some(ball) => {
                 let out = ball.outward(ray, hit.t);
                 let (p, n) = self.on_ball(ball, out);
-                (self.form.local(self.to_object.vector(out)), p, n)
+                (self.local_on_ball(ball, out), p, n)
             }
             None => {
                 let l = self.local(ray, hit.t);

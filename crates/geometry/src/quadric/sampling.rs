@@ -1,27 +1,13 @@
 //! Drawing points of quadrics.
 
-use core::f64::consts::{FRAC_1_PI, TAU};
+use sparrow_math::Vec3;
 
-use sparrow_math::{Frame, LocalDir, Vec3, warp};
-
-use super::{Ball, Quadric};
+use super::Quadric;
 use crate::point::ShapeSample;
-use crate::sample::seen_from;
+use crate::sample::{Draw, Drawn, SampleColumns, Viewpoint, seen_from};
 
 /// Points an axis of the rule that measures areas under maps that stretch unevenly.
 const AREA_STEPS: u32 = 64;
-
-/// Density of directions drawn over the whole sphere.
-const UNIFORM_SPHERE: f64 = 0.25 * FRAC_1_PI;
-
-/// `1 - cos` of the half angle of the cone around a ball, seen from `distance`; `None` from inside.
-fn one_minus_cos(radius: f64, distance: f64) -> Option<f64> {
-    let sin = radius / distance;
-    (sin < 1.0).then(|| {
-        let sin2 = sin * sin;
-        sin2 / (1.0 + (1.0 - sin2).sqrt())
-    })
-}
 
 impl Quadric {
     /// World-space area of a unit of object-space area with object-space unit normal `n`.
@@ -62,51 +48,35 @@ impl Quadric {
     }
 
     /// Whole balls: uniform in the cone they fill, or over all directions from inside. Others: by area.
-    pub(crate) fn sample_from(&self, from: Vec3<f32>, u: [f32; 2]) -> Option<ShapeSample> {
-        let Some(ball) = &self.ball else {
-            return seen_from(self.sample_area(u)?, from);
-        };
-        let Ball { center, radius } = *ball;
-        let (from, u) = (from.to_f64(), u.map(f64::from));
-        let to_center = center - from;
-        let distance = to_center.length();
-        let cone = one_minus_cos(radius, distance);
-        let wi = match cone {
-            Some(c) => {
-                let frame = Frame::from_z(to_center / distance);
-                frame.to_world(LocalDir::new(warp::uniform_cone(u, c)))
-            }
-            None => warp::uniform_sphere(u),
-        };
-        let pdf = self.ball_pdf(distance)?;
-        let along = to_center.dot(wi);
-        let half = (radius * radius - (to_center - wi * along).length2()).max(0.0).sqrt();
-        let t = if cone.is_some() { along - half } else { along + half };
-        let out = (wi * t - to_center).normalized();
-        let (p, n) = self.on_ball(ball, out);
-        (t > 0.0 && p.x.is_finite()).then(|| ShapeSample {
-            p: p.to_f32(),
-            p_error: Self::p_error(p),
-            n: n.to_f32(),
-            wi: wi.to_f32(),
-            distance: t as f32,
-            pdf: pdf as f32,
-        })
+    #[inline]
+    pub(crate) fn sample_from(&self, from: &Viewpoint, u: [f32; 2]) -> Option<ShapeSample> {
+        match &self.ball {
+            Some(ball) => self.drawn(&ball.single.draw_one(from, u)),
+            None => seen_from(self.sample_area(u)?, from.p),
+        }
     }
-    /// Density of the directions drawn to a ball whose centre is that far; `None` where it is too small a target.
-    fn ball_pdf(&self, distance: f64) -> Option<f64> {
-        let radius = self.ball.as_ref()?.radius;
-        let pdf = one_minus_cos(radius, distance).map_or(UNIFORM_SPHERE, |c| 1.0 / (TAU * c));
-        (pdf < f64::from(f32::MAX)).then_some(pdf)
+    #[inline]
+    fn drawn(&self, drawn: &Drawn<f32>) -> Option<ShapeSample> {
+        let ball = self.ball.as_ref()?;
+        drawn.sample(ball.single.p_error(), if self.flip { -drawn.n } else { drawn.n })
+    }
+    /// [`sample_from`](Self::sample_from) from each of `n` viewpoints; false where this is no whole ball.
+    pub(crate) fn sample_from_many(
+        &self,
+        columns: &mut SampleColumns<'_>,
+        n: usize,
+        mut put: impl FnMut(usize, Option<ShapeSample>),
+    ) -> bool {
+        let Some(ball) = &self.ball else { return false };
+        columns.draw(&ball.single, n);
+        (0..n).for_each(|k| put(k, self.drawn(&columns.get(k))));
+        true
     }
     /// Density per steradian of [`sample_from`](Self::sample_from) for a direction that met the surface with world
     /// normal `n`; `per_area` turns densities per area into it.
     pub(crate) fn pdf_from(&self, from: Vec3<f32>, n: Vec3<f32>, per_area: impl Fn(f64) -> f32) -> f32 {
         match &self.ball {
-            Some(ball) => {
-                let pdf = self.ball_pdf((ball.center - from.to_f64()).length());
-                pdf.map_or(0.0, |p| p as f32)
-            }
+            Some(ball) => Some(ball.single.pdf(from)).filter(|pdf| *pdf < f32::MAX).unwrap_or(0.0),
             None => per_area(self.pdf_area(n.to_f64())),
         }
     }

@@ -1,22 +1,38 @@
 //! Drawing directions to shapes.
 
+mod ball;
 mod bilinear;
+mod many;
 mod rectangle;
 mod triangle;
 mod viewpoint;
 
+pub(crate) use ball::Ball;
 pub(crate) use bilinear::Bilinear;
-pub(crate) use rectangle::{Edges, SphericalRectangle};
+pub use many::SampleColumns;
+pub(crate) use many::{Draw, Drawn};
+pub(crate) use rectangle::{Edges, Rectangle};
 pub(crate) use triangle::SphericalTriangle;
 pub use viewpoint::Viewpoint;
 
-use sparrow_math::Vec3;
+use sparrow_math::{Real, Vec3, vec3};
 
 use crate::point::ShapeSample;
 
 /// Solid angles for which directions follow the cosine: smaller shapes are seen under one, and of larger ones the corners say
 /// little about the middle.
 pub(crate) const WARPED: core::ops::RangeInclusive<f64> = 0.1..=3.0;
+
+/// The same vector in every lane.
+#[inline(always)]
+fn spread<R: Real>(v: Vec3<f32>) -> Vec3<R> {
+    vec3(R::of(v.x.into()), R::of(v.y.into()), R::of(v.z.into()))
+}
+
+#[inline(always)]
+fn spread_all<R: Real>(v: [Vec3<f32>; 3]) -> [Vec3<R>; 3] {
+    [spread(v[0]), spread(v[1]), spread(v[2])]
+}
 
 /// A density per area at a point, as one per steradian seen from elsewhere; `None` where that is infinite.
 pub(crate) fn per_steradian(pdf: f64, from: Vec3<f32>, p: Vec3<f32>, n: Vec3<f32>) -> Option<f32> {

@@ -26,7 +26,7 @@ use crate::film::{Film, Halves};
 use crate::plan::RenderPlan;
 use crate::render::{Progress, RenderError, RenderOptions, RenderStats};
 use crate::run::{Exposure, Job, Run, TILE};
-use crate::sampler::{Sampler, SamplerConfig};
+use crate::sampler::SamplerConfig;
 use crate::scene::Scene;
 
 /// Samples of a pixel in one half before anything is estimated.
@@ -55,11 +55,12 @@ pub fn render_to_noise(
     if !config.is_random() {
         return Err(RenderError::SamePoints);
     }
-    let other = Sampler::new(&SamplerConfig { seed: config.seed ^ OTHER_HALF, ..*config });
+    let how = plan.integrator.split(scene, plan);
+    let other = SamplerConfig { seed: config.seed ^ OTHER_HALF, ..*config };
+    let samplers = [config, &other].map(|config| plan.sampler_of_ways(config, how.splits));
     let [width, height] = plan.size();
-    let exposures =
-        [&plan.sampler, &other].map(|sampler| Exposure::new(sampler, Film::new(width, height, true)));
-    let run = Run::new(scene, plan, options, stop, watch)?;
+    let exposures = samplers.each_ref().map(|sampler| Exposure::new(sampler, Film::new(width, height, true)));
+    let run = Run::new(scene, plan, how, options, stop, watch)?;
     let mut render = Adaptive::new(&run, &exposures, plan);
     let ended = render.pilot(target)? && render.main_part(target)?;
     let (done, noise) = (render.least(), render.noise);

@@ -46,6 +46,8 @@ pub struct PathIntegrator {
     pub mis: Mis,
     /// Narrow lobes are widened after the first one that is no delta.
     pub regularize: bool,
+    /// Ways on from the first vertex of each camera sample.
+    pub splits: u32,
 }
 
 impl PathIntegrator {
@@ -57,12 +59,34 @@ impl PathIntegrator {
             max_smooth: if direct { 1 } else { u32::MAX },
             mis: desc.mis,
             regularize: desc.regularize,
+            splits: 1,
         }
+    }
+
+    /// Directions that a vertex draws, as a number.
+    #[inline]
+    pub(super) fn ways_on(&self, depth: u32) -> f32 {
+        if depth == 0 { self.splits as f32 } else { 1.0 }
     }
 
     /// Radiance that arrives along `ray`, at the path's wavelengths; `record` is told of each light that is found.
     pub fn radiance(
         &self,
+        scene: &Scene,
+        ray: Ray,
+        lambda: &mut Wavelengths,
+        sampler: &mut PixelSampler<'_>,
+        rays: &mut RayCounts,
+        record: &mut impl Record,
+    ) -> Spectrum<f32> {
+        PathIntegrator { splits: 1, ..*self }.radiance_of_way(0, scene, ray, lambda, sampler, rays, record)
+    }
+
+    /// The part of one way on of [`splits`](Self::splits); the light of the first vertex belongs to the first way.
+    #[allow(clippy::too_many_arguments, reason = "which part, and what a path needs")]
+    pub(crate) fn radiance_of_way(
+        &self,
+        way: u32,
         scene: &Scene,
         mut ray: Ray,
         lambda: &mut Wavelengths,
@@ -75,10 +99,13 @@ impl PathIntegrator {
         let (mut depth, mut n_smooth, mut eta_scale) = (0u32, 0, 1.0);
         loop {
             let hit = scene.intersect(&ray);
-            rays.scattered += 1;
+            let (own, n) = (depth > 0 || way == 0, self.ways_on(depth));
+            rays.scattered += u64::from(own);
             let by = depth.checked_sub(1).map_or(Finder::Camera, Finder::Bsdf);
             let found = |light, w| record.found(by, beta * light, w);
-            l += beta * scene.emitted(&ray, hit.as_ref(), last.as_ref(), self.mis, lambda, found);
+            if own {
+                l += beta * scene.emitted(&ray, hit.as_ref(), last.as_ref(), self.mis, lambda, found);
+            }
 
             let Some(point) = hit else { break };
             if depth == self.max_depth || n_smooth == self.max_smooth {
@@ -96,21 +123,21 @@ impl PathIntegrator {
             // Direct light.
             sampler.set_dimension(light_dimension(depth));
             let turn = self.mis.turn(sampler.get_1d());
-            if turn.light && bsdf.has_smooth_lobe() {
+            if own && turn.light && bsdf.has_smooth_lobe() {
                 let found = |light, w| record.found(Finder::Light(depth), beta * light, w);
-                l += beta * self.direct(scene, &point, &bsdf, wo, lambda, turn.u, sampler, rays, found);
+                l += beta * self.direct(scene, &point, &bsdf, wo, n, lambda, turn.u, sampler, rays, found);
             }
 
             // Next vertex.
             sampler.set_dimension(scatter_dimension(depth));
             let (lobe, dir) = (sampler.get_1d(), sampler.get_2d());
             let Some(s) = bsdf.sample(wo, lobe, dir) else { break };
-            beta *= s.weight;
-            eta_scale *= s.eta * s.eta;
+            beta *= s.weight * (1.0 / n);
+            eta_scale *= s.eta * s.eta * n;
             match s.density {
                 Density::SolidAngle(pdf) => {
                     n_smooth += 1;
-                    let pdf = if turn.bsdf { pdf } else { 0.0 };
+                    let pdf = if turn.bsdf { n * pdf } else { 0.0 };
                     last = Some(LastVertex { at: LitPoint { p: point.p, n: point.ns }, pdf });
                 }
                 Density::Delta(_) => last = None,
@@ -118,7 +145,7 @@ impl PathIntegrator {
             ray = point.spawn(s.wi);
             depth += 1;
 
-            // Roulette, on what the path carries apart from the squeeze of refraction.
+            // Roulette, on what the path carries apart from the squeeze of refraction and the share of its way.
             let survival = roulette((beta * eta_scale).max_value());
             if survival < 1.0 && depth > 1 {
                 if sampler.get_1d() >= survival {
@@ -139,6 +166,7 @@ impl PathIntegrator {
         point: &SurfacePoint,
         bsdf: &Scatter,
         wo: Vec3<f32>,
+        n: f32,
         lambda: &Wavelengths,
         choice: f32,
         sampler: &mut PixelSampler<'_>,
@@ -157,7 +185,7 @@ impl PathIntegrator {
         if !scene.unoccluded(point, &light) {
             return Spectrum::ZERO;
         }
-        let s = Scattered::new(self.mis, &light, f_cos, pdf);
+        let s = Scattered::new(self.mis, &light, f_cos, n * pdf);
         found(s.unweighted, s.weight);
         s.weighted
     }
@@ -174,7 +202,7 @@ pub(super) struct Scattered {
 }
 
 impl Scattered {
-    /// From value times cosine towards the light, and the density with which the BSDF draws that direction.
+    /// From value times cosine towards the light, and the density with which the BSDF draws that direction, times how often.
     #[inline]
     pub(super) fn new(mis: Mis, light: &LightSample, f_cos: Spectrum<f32>, pdf: f32) -> Scattered {
         let w = if light.delta { mis.delta_weight() } else { mis.light_weight(light.pdf, pdf) };

@@ -4,6 +4,7 @@ use sparrow_geometry::Ray;
 use sparrow_math::Real;
 use sparrow_spectra::{Spectrum, Wavelengths};
 
+use super::PathIntegrator;
 use crate::film::FilmTile;
 use crate::observe::{Sample, TileObserver};
 use crate::plan::RenderPlan;
@@ -17,6 +18,8 @@ pub(crate) struct FilmPlace {
     pub(crate) pixel: [u32; 2],
     /// Weight of the pixel filter.
     pub(crate) weight: f32,
+    /// The number of the sample.
+    pub(crate) sample: u32,
 }
 
 /// The uniform numbers of a camera sample.
@@ -55,12 +58,29 @@ pub(crate) struct CameraSample {
 impl CameraSample {
     /// Wavelengths, time, place on film and lens of a sample of a pixel of the film's window.
     #[inline]
-    pub(crate) fn new(scene: &Scene, plan: &RenderPlan, pixel: [u32; 2], u: &CameraNumbers) -> CameraSample {
+    pub(crate) fn new(
+        scene: &Scene,
+        plan: &RenderPlan,
+        pixel: [u32; 2],
+        sample: u32,
+        u: &CameraNumbers,
+    ) -> CameraSample {
+        let start = CameraSample::of_picture(scene, plan, plan.in_full_picture(pixel), u);
+        CameraSample { place: FilmPlace { pixel, sample, ..start.place }, ..start }
+    }
+
+    /// The same for the first sample of a pixel of the full picture.
+    pub(crate) fn of_picture(
+        scene: &Scene,
+        plan: &RenderPlan,
+        pixel: [u32; 2],
+        u: &CameraNumbers,
+    ) -> CameraSample {
         let lambda = plan.sensor.wavelengths(u.wavelength);
         let time = if scene.moves { scene.camera.time(u.time) } else { 0.0 };
-        let (film, weight) = film_point(plan, plan.in_full_picture(pixel).map(|x| x as f32), u.pixel);
+        let (film, weight) = film_point(plan, pixel.map(|x| x as f32), u.pixel);
         let ray = scene.camera.ray(film, u.lens, time);
-        CameraSample { place: FilmPlace { pixel, weight }, lambda, ray }
+        CameraSample { place: FilmPlace { pixel, weight, sample: 0 }, lambda, ray }
     }
 }
 
@@ -75,6 +95,7 @@ pub(super) fn film_point<R: Real>(plan: &RenderPlan, pixel: [R; 2], u: [R; 2]) -
 /// A tile of the film with who looks on.
 pub(crate) struct Exposed<'a, T> {
     pub(crate) plan: &'a RenderPlan,
+    pub(crate) how: PathIntegrator,
     pub(crate) film: FilmTile,
     pub(crate) observer: T,
 }
@@ -90,9 +111,21 @@ impl<T: TileObserver> Exposed<'_, T> {
         record: &T::Record,
     ) {
         let sensor = &self.plan.sensor;
-        let FilmPlace { pixel, weight } = place;
+        let FilmPlace { pixel, weight, .. } = place;
         let sample = Sample { pixel, rgb: sensor.rgb(l, lambda), weight };
         let rgb = self.observer.take(sample, record, |part| sensor.rgb(part, lambda));
         self.film.add(pixel[0], pixel[1], rgb, weight);
+    }
+
+    /// What a way on adds to a camera sample, for the film.
+    #[inline]
+    pub(crate) fn part(&self, l: Spectrum<f32>, lambda: &Wavelengths) -> [f32; 3] {
+        self.plan.sensor.rgb(l, lambda)
+    }
+    /// Takes a camera sample whose ways on give these parts; nobody looks at those.
+    #[inline]
+    pub(crate) fn take_parts(&mut self, place: FilmPlace, parts: &[[f32; 3]]) {
+        let rgb = [0, 1, 2].map(|c| parts.iter().map(|rgb| rgb[c]).sum());
+        self.film.add(place.pixel[0], place.pixel[1], rgb, place.weight);
     }
 }

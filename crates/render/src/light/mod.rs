@@ -11,7 +11,7 @@ mod selection;
 mod tests;
 mod tree;
 
-use sparrow_geometry::{Geometry, ShapeSample, SurfacePoint, Viewpoint};
+use sparrow_geometry::{Geometry, SampleColumns, ShapeSample, SurfacePoint, Viewpoint};
 use sparrow_math::{Real, Transform, Vec3};
 use sparrow_spectra::{Spectrum, Wavelengths};
 
@@ -185,6 +185,38 @@ impl Lights {
         self.selection.probability(at, light)
     }
 
+    /// [`sample`](Self::sample) from each of the first `n` points of `columns`, in lanes, to the bit; `put` is given the number of each and
+    /// what was drawn. False, and nothing done, where such lights are drawn one by one.
+    pub(crate) fn sample_many<'w>(
+        &self,
+        geometry: &Geometry,
+        light: u32,
+        columns: &mut SampleColumns<'_>,
+        n: usize,
+        lambda: impl Fn(usize) -> &'w Wavelengths,
+        mut put: impl FnMut(usize, Option<LightSample>),
+    ) -> bool {
+        let Light::Area { shape, prim, .. } = self.lights[light as usize] else { return false };
+        geometry.sample_from_many(shape, prim, columns, n, |k, s| {
+            put(k, s.and_then(|s| self.of_surface(light, s, lambda(k))));
+        })
+    }
+
+    /// What the light of a primitive sends from a point drawn on it; none to the side that does not shine.
+    #[inline]
+    fn of_surface(&self, light: u32, s: ShapeSample, w: &Wavelengths) -> Option<LightSample> {
+        let Light::Area { emission, scale, two_sided, .. } = &self.lights[light as usize] else {
+            return None;
+        };
+        (s.pdf > 0.0 && (*two_sided || s.n.dot(s.wi) < 0.0)).then(|| LightSample {
+            wi: s.wi,
+            radiance: self.emissions[*emission as usize].at(w) * *scale,
+            pdf: s.pdf,
+            delta: false,
+            target: Target::Surface(s),
+        })
+    }
+
     /// Draws a direction towards the light; none where it sends nothing to that point.
     pub fn sample(
         &self,
@@ -195,18 +227,8 @@ impl Lights {
         w: &Wavelengths,
     ) -> Option<LightSample> {
         match &self.lights[light as usize] {
-            Light::Area { shape, prim, emission, scale, two_sided } => {
-                let s = geometry.sample_from(*shape, *prim, at.viewpoint(), u)?;
-                if !(s.pdf > 0.0) || (!two_sided && s.n.dot(s.wi) >= 0.0) {
-                    return None;
-                }
-                Some(LightSample {
-                    wi: s.wi,
-                    radiance: self.emissions[*emission as usize].at(w) * *scale,
-                    pdf: s.pdf,
-                    delta: false,
-                    target: Target::Surface(s),
-                })
+            Light::Area { shape, prim, .. } => {
+                self.of_surface(light, geometry.sample_from(*shape, *prim, at.viewpoint(), u)?, w)
             }
             Light::Point { p, emission, scale } => self.point_sample(*p, at, *emission, *scale, w),
             Light::Spot { p, to_light, cos_end, cos_start, emission, scale } => {

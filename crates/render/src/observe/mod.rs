@@ -44,6 +44,8 @@ pub(crate) trait Observer: Sync {
     type Tile: TileObserver;
     /// Passes get points of their own: what is learned in one is independent of the samples of the next.
     const LEARNS: bool = false;
+    /// Has to see each camera sample as one path.
+    const WHOLE_PATHS: bool = true;
     /// Begins a tile.
     fn tile(&self, origin: [u32; 2], size: [u32; 2]) -> Self::Tile;
     /// Takes over what a tile has seen.
@@ -60,6 +62,7 @@ impl TileObserver for () {
 }
 impl Observer for () {
     type Tile = ();
+    const WHOLE_PATHS: bool = false;
     fn tile(&self, _: [u32; 2], _: [u32; 2]) {}
     fn absorb(&self, (): &()) -> Result<(), FilmError> {
         Ok(())

@@ -17,39 +17,64 @@ const CHUNK: usize = 64;
 type Words = [u32; CHUNK];
 
 impl Sampler {
-    /// What [`PixelSampler::get_1d`] gives at `dimension` for each of `paths`, which this sampler started.
+    /// What [`PixelSampler::get_1d`] gives `offset` dimensions after where each of `paths` stands, which this sampler started.
     ///
     /// As many numbers as the shorter of both has places. Runs in lanes for the kinds `independent`, `zsobol`,
-    /// `paddedsobol`, `pmj02bn` and `sobol` with fast Owen scrambling, else one by one.
-    pub fn fill_1d(&self, paths: &[PixelSampler<'_>], dimension: u32, out: &mut [f32]) {
-        if !self.has_columns(dimension) {
-            for (path, x) in paths.iter().zip(out) {
-                *x = path.at(dimension).get_1d();
+    /// `paddedsobol`, `pmj02bn` and, where neighbours stand at one dimension, `sobol` with fast Owen scrambling, else one by one.
+    pub fn fill_1d(&self, paths: &[PixelSampler<'_>], offset: u32, out: &mut [f32]) {
+        let mut out = out;
+        for paths in self.runs(paths) {
+            let (x, rest) = out.split_at_mut(paths.len().min(out.len()));
+            out = rest;
+            let dimension = paths[0].dimension().wrapping_add(offset);
+            if !self.has_columns(dimension) {
+                for (path, x) in paths.iter().zip(x) {
+                    *x = path.after(offset).get_1d();
+                }
+                continue;
             }
-            return;
-        }
-        for (paths, x) in paths.chunks(CHUNK).zip(out.chunks_mut(CHUNK)) {
-            in_lanes(Single(Column { sampler: self, paths, dimension }, x));
+            for (paths, x) in paths.chunks(CHUNK).zip(x.chunks_mut(CHUNK)) {
+                in_lanes(Single(Column { sampler: self, paths, offset, dimension }, x));
+            }
         }
     }
 
-    /// What [`PixelSampler::get_2d`] gives at `dimension` for each of `paths`, by coordinates; else as [`Sampler::fill_1d`].
-    pub fn fill_2d(&self, paths: &[PixelSampler<'_>], dimension: u32, out: [&mut [f32]; 2]) {
-        let [xs, ys] = out;
-        if !self.has_columns(dimension) || !self.has_columns(dimension.saturating_add(1)) {
-            for ((path, x), y) in paths.iter().zip(xs).zip(ys) {
-                [*x, *y] = path.at(dimension).get_2d();
+    /// What [`PixelSampler::get_2d`] gives `offset` dimensions after where each of `paths` stands, by coordinates; else as
+    /// [`Sampler::fill_1d`].
+    pub fn fill_2d(&self, paths: &[PixelSampler<'_>], offset: u32, out: [&mut [f32]; 2]) {
+        let [mut xs, mut ys] = out;
+        for paths in self.runs(paths) {
+            let n = paths.len().min(xs.len()).min(ys.len());
+            let ((x, more_x), (y, more_y)) = (xs.split_at_mut(n), ys.split_at_mut(n));
+            (xs, ys) = (more_x, more_y);
+            let dimension = paths[0].dimension().wrapping_add(offset);
+            if !self.has_columns(dimension) || !self.has_columns(dimension.saturating_add(1)) {
+                for ((path, x), y) in paths.iter().zip(x).zip(y) {
+                    [*x, *y] = path.after(offset).get_2d();
+                }
+                continue;
             }
-            return;
+            for ((paths, x), y) in paths.chunks(CHUNK).zip(x.chunks_mut(CHUNK)).zip(y.chunks_mut(CHUNK)) {
+                in_lanes(Pair(Column { sampler: self, paths, offset, dimension }, x, y));
+            }
         }
-        for ((paths, x), y) in paths.chunks(CHUNK).zip(xs.chunks_mut(CHUNK)).zip(ys.chunks_mut(CHUNK)) {
-            in_lanes(Pair(Column { sampler: self, paths, dimension }, x, y));
-        }
+    }
+
+    /// Parts that run together: where dimensions have tables of their own, those that stand at the same.
+    fn runs<'p, 's>(&self, paths: &'p [PixelSampler<'s>]) -> impl Iterator<Item = &'p [PixelSampler<'s>]> {
+        let alike = !self.has_tables();
+        paths.chunk_by(move |a, b| alike || a.dimension() == b.dimension())
+    }
+
+    /// Each dimension has tables of its own, so that columns are best filled from paths that stand at the same.
+    pub(crate) fn has_tables(&self) -> bool {
+        matches!(self.plan, Plan::Sobol(_))
     }
 
     /// What [`PixelSampler::get_pixel_2d`] gives for each of `paths`, by coordinates.
     pub fn fill_pixel_2d(&self, paths: &[PixelSampler<'_>], out: [&mut [f32]; 2]) {
-        if !matches!(self.plan, Plan::Sobol(_) | Plan::Halton(_)) {
+        let at_start = paths.iter().all(|path| path.dimension() == 0);
+        if at_start && !matches!(self.plan, Plan::Sobol(_) | Plan::Halton(_)) {
             return self.fill_2d(paths, PIXEL_DIMENSION, out);
         }
         let [xs, ys] = out;
@@ -75,6 +100,9 @@ impl Sampler {
 struct Column<'a> {
     sampler: &'a Sampler,
     paths: &'a [PixelSampler<'a>],
+    /// After where each of them stands.
+    offset: u32,
+    /// Of the first; of all where the sampler [has tables](Sampler::has_tables).
     dimension: u32,
 }
 
@@ -144,9 +172,9 @@ impl Column<'_> {
     fn keys(&self) -> [u64; CHUNK] {
         let mut keys = [0; CHUNK];
         for (k, path) in keys.iter_mut().zip(self.paths) {
-            *k = path.key;
+            *k = path.key_here();
         }
-        let step = key_step(self.dimension);
+        let step = key_step(self.offset);
         for k in &mut keys {
             *k = mix(k.wrapping_add(step));
         }

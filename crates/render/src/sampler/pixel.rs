@@ -174,6 +174,18 @@ impl<'a> PixelSampler<'a> {
         PixelSampler { dimension, ..self }
     }
 
+    /// The same pixel sample, so many dimensions on.
+    #[inline]
+    pub(super) fn after(self, offset: u32) -> PixelSampler<'a> {
+        self.at(self.dimension.wrapping_add(offset))
+    }
+
+    /// What the key of a dimension is made of, but for how far it lies ahead: steps add up.
+    #[inline(always)]
+    pub(super) fn key_here(&self) -> u64 {
+        self.key.wrapping_add(u64::from(self.dimension).wrapping_mul(GOLDEN))
+    }
+
     /// The next dimension to be drawn.
     #[inline]
     pub fn dimension(&self) -> u32 {

@@ -334,6 +334,9 @@ fn notes_say_what_differs() {
     assert_eq!(sampler(SamplerKind::ZSobol, 48, 0).samples_per_pixel(), 48);
 }
 
+/// The first, some, the last of tables and beyond.
+const DIMENSIONS: [u32; 7] = [0, 5, 124, 125, 126, 127, 1_000_000];
+
 #[test]
 fn columns_equal_single_numbers() {
     for kind in KINDS {
@@ -344,16 +347,19 @@ fn columns_equal_single_numbers() {
             // 150 paths fill two chunks and a part; the last sample sets high bits of a global index.
             let start =
                 |i: u32| s.start([i * 7 % 640, i * 13 % 400], if i == 149 { u32::MAX } else { i % 64 });
-            let paths: Vec<PixelSampler<'_>> = (0..150).map(start).collect();
-            for d in [0, 5, 124, 125, 126, 127, 1_000_000] {
+            let first: Vec<PixelSampler<'_>> = (0..150).map(start).collect();
+            let later: Vec<PixelSampler<'_>> =
+                (0..).zip(&first).map(|(i, p)| p.at(i / 9 * 7 % 130)).collect();
+            for (paths, d) in [&first, &later].into_iter().flat_map(|p| DIMENSIONS.map(|d| (p, d))) {
                 let (mut a, mut x, mut y) = ([0.0; 150], [0.0; 150], [0.0; 150]);
-                s.fill_1d(&paths, d, &mut a);
-                s.fill_2d(&paths, d, [&mut x, &mut y]);
+                s.fill_1d(paths, d, &mut a);
+                s.fill_2d(paths, d, [&mut x, &mut y]);
                 for (i, p) in paths.iter().enumerate() {
-                    assert_eq!(a[i], p.at(d).get_1d(), "{kind:?} {randomize:?}: {i} at {d}");
-                    assert_eq!([x[i], y[i]], p.at(d).get_2d(), "{kind:?} {randomize:?}: pair {i} at {d}");
+                    let mut p = p.at(p.dimension() + d);
+                    assert_eq!([x[i], y[i]], p.clone().get_2d(), "{kind:?} {randomize:?}: pair {i} at {d}");
+                    assert_eq!(a[i], p.get_1d(), "{kind:?} {randomize:?}: {i} at {d}");
                 }
-                s.fill_pixel_2d(&paths, [&mut x, &mut y]);
+                s.fill_pixel_2d(paths, [&mut x, &mut y]);
                 for (i, p) in paths.iter().enumerate() {
                     assert_eq!([x[i], y[i]], p.at(d).get_pixel_2d(), "{kind:?} {randomize:?}: pixel {i}");
                 }

@@ -27,6 +27,7 @@ pub(crate) struct Setting {
     pub(crate) mis: Mis,
     pub(crate) lights: LightSamplerName,
     pub(crate) sampler: SamplerName,
+    pub(crate) splits: u32,
 }
 
 fn mis(word: &str) -> Mis {
@@ -35,11 +36,13 @@ fn mis(word: &str) -> Mis {
 
 /// Every heuristic, every choice of lights, every sampler.
 pub(crate) static SETTINGS: LazyLock<Vec<Setting>> = LazyLock::new(|| {
-    let usual = Setting { mis: mis("power"), lights: LightSamplerName::Bvh, sampler: SamplerName::ZSobol };
+    let usual =
+        Setting { mis: mis("power"), lights: LightSamplerName::Bvh, sampler: SamplerName::ZSobol, splits: 1 };
     let heuristics = Mis::EXAMPLES.iter().map(|word| Setting { mis: mis(word), ..usual });
     let lights = all_lights().into_iter().map(|lights| Setting { lights, ..usual });
     let samplers = all_samplers().into_iter().map(|sampler| Setting { sampler, ..usual });
-    heuristics.chain(lights).chain(samplers).collect()
+    let split = Mis::EXAMPLES.iter().map(|word| Setting { mis: mis(word), splits: 3, ..usual });
+    heuristics.chain(lights).chain(samplers).chain(split).collect()
 });
 
 /// All but the one that every heuristic runs with. A new kind makes the `match` incomplete.
@@ -78,6 +81,7 @@ pub(crate) fn measure(text: &str, setting: Setting, spp: u32, first_seed: u64) -
     let mut desc = describe(text);
     desc.integrator.mis = setting.mis;
     desc.integrator.light_sampler = setting.lights;
+    desc.integrator.splits = Some(setting.splits);
     desc.sampler.name = setting.sampler;
     desc.sampler.samples_per_pixel = spp;
     desc.sampler.strata = [spp / 4, 4];
@@ -136,8 +140,12 @@ pub(crate) struct Verdict {
 
 /// All settings of a scene against the truth of the scene `true_text`, and at last their common mean.
 pub(crate) fn try_all(text: &str, true_text: &str, truth: &Truth) -> Vec<Verdict> {
-    let plain =
-        Setting { mis: mis("balance"), lights: LightSamplerName::Uniform, sampler: SamplerName::PaddedSobol };
+    let plain = Setting {
+        mis: mis("balance"),
+        lights: LightSamplerName::Uniform,
+        sampler: SamplerName::PaddedSobol,
+        splits: 1,
+    };
     let truth = match truth {
         Truth::Known(v) => {
             let mut exact = Mean::default();

@@ -82,6 +82,7 @@ impl Builder {
             max_depth: 5,
             light_sampler: LightSamplerName::Bvh,
             regularize: false,
+            splits: None,
             mis: Mis::Both(Heuristic::Power(2.0)),
             mis_compensation: true,
         };
@@ -102,6 +103,17 @@ impl Builder {
         }
         desc.light_sampler = self.light_sampler(p);
         desc.regularize = p.bool_or("regularize", false);
+        match p.int("splits") {
+            None | Some(0) => {}
+            Some(n @ 1..) if n <= IntegratorDesc::MAX_SPLITS as _ => desc.splits = Some(n as u32),
+            Some(n) => {
+                let most = IntegratorDesc::MAX_SPLITS;
+                let message = format!(
+                    "\"splits\" is {n}; give one from 1 to {most}, or 0 for as many as are efficient"
+                );
+                self.report.error(p.place("splits"), message);
+            }
+        }
         desc.mis_compensation = p.bool_or("miscompensation", true);
         desc.mis = self.mis(p).unwrap_or(desc.mis);
         desc

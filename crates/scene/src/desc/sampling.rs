@@ -64,10 +64,17 @@ pub struct IntegratorDesc {
     pub light_sampler: LightSamplerName,
     /// Widens narrow lobes after the first rough one.
     pub regularize: bool,
+    /// Ways on from the first vertex of each camera sample, from 1 to [`MAX_SPLITS`](Self::MAX_SPLITS); none: as many as are efficient.
+    pub splits: Option<u32>,
     /// How light sampling and BSDF sampling share direct light.
     pub mis: Mis,
     /// MIS compensation of environment lights.
     pub mis_compensation: bool,
+}
+
+impl IntegratorDesc {
+    /// Most ways on from a vertex.
+    pub const MAX_SPLITS: u32 = 64;
 }
 
 /// Names of integrators.

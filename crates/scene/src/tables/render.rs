@@ -93,7 +93,7 @@ const DEPTH: &[Row] = &[row("maxdepth", Kind::Int)];
 const LIGHTS: &[Row] = &[row("lightsampler", Kind::Text), row("regularize", Kind::Bool)];
 const STRATEGIES: &[Row] = &[row("samplelights", Kind::Bool), row("samplebsdf", Kind::Bool)];
 /// Sparrow's own.
-const MIS: &[Row] = &[row("mis", Kind::Text), row("miscompensation", Kind::Bool)];
+const MIS: &[Row] = &[row("mis", Kind::Text), row("miscompensation", Kind::Bool), row("splits", Kind::Int)];
 const SAME_LIGHT: &str = "\"path\" is used, which finds the same light with other noise";
 
 pub(super) static INTEGRATORS: [Entity; 13] = [

@@ -8,6 +8,7 @@ use sparrow_spectra::{N_LAMBDA, Spectrum, Wavelengths};
 
 use super::column::{Column, pad, padded, put_spectrum, put_vector, spectrum, vector};
 use super::lanes::{ToLocal, ToWorld};
+use super::lights::{LightChoice, LightChoices};
 use super::paths::Paths;
 use crate::integrator::PathIntegrator;
 use crate::integrator::path::{light_dimension, scatter_dimension};
@@ -18,8 +19,8 @@ use crate::scatter::{Density, Scatter, ScatterSample};
 use crate::scene::{Scene, fibre_offset};
 use crate::texture::TextureContext;
 
-/// Fewer vertices than this are scattered one by one.
-const FEW: usize = 4;
+/// Fewer vertices than this are worked off one by one.
+pub(super) const FEW: usize = 4;
 
 /// What vertices of a batch have in common: the material, and whether its narrow lobes are widened.
 pub(super) fn key(material: u32, regularized: bool) -> u32 {
@@ -36,6 +37,7 @@ pub(super) struct Batch<'a> {
     pub(super) lights: Vec<LightSample>,
     /// Where the numbers of each vertex stand.
     numbers_of: Vec<u32>,
+    choices: LightChoices,
     /// Vertices without, and where their numbers stand.
     unlit: Vec<(u32, u32)>,
     /// The models of vertices that are scattered one by one; empty where that is done in lanes.
@@ -87,17 +89,19 @@ struct Numbers {
 
 impl<'a> Batch<'a> {
     /// Draws the uniform numbers of each vertex.
-    pub(super) fn draw<R>(&mut self, sampler: &Sampler, paths: &Paths<'a, R>, vertices: &[u32]) {
+    pub(super) fn draw<R>(
+        &mut self,
+        scene: &Scene,
+        how: &PathIntegrator,
+        sampler: &Sampler,
+        paths: &Paths<'a, R>,
+        vertices: &[u32],
+    ) {
+        let at = |&i: &u32| paths.sampler[i as usize].at(light_dimension(paths.depth[i as usize]));
         self.samplers.clear();
-        self.samplers.extend(vertices.iter().map(|&i| paths.sampler[i as usize]));
-        let numbers = &mut self.columns.numbers;
-        let mut first = 0;
-        // Vertices come in the order of their depth.
-        for run in vertices.chunk_by(|&a, &b| paths.depth[a as usize] == paths.depth[b as usize]) {
-            let end = first + run.len();
-            numbers.fill(sampler, &self.samplers[first..end], paths.depth[run[0] as usize], first);
-            first = end;
-        }
+        self.samplers.extend(vertices.iter().map(at));
+        let choices = scene.lights().len() > 1 || how.mis.takes_turns();
+        self.columns.numbers.fill(sampler, &self.samplers, choices);
     }
 
     /// Draws a light for each vertex, and puts those first that got one.
@@ -113,6 +117,7 @@ impl<'a> Batch<'a> {
         self.lights.clear();
         self.unlit.clear();
         self.numbers_of.clear();
+        self.choices.clear(scene.lights().len());
         let Columns { numbers, wi_light, .. } = &mut *self.columns;
         for (j, &path) in vertices.iter().enumerate() {
             let i = path as usize;
@@ -120,18 +125,26 @@ impl<'a> Batch<'a> {
             let turn = how.mis.turn(numbers.light[j]);
             paths.looks[i] = turn.bsdf;
             let at = LitPoint { p: point.p, n: point.ns };
-            let u = numbers.on_light.each_ref().map(|c| c[j]);
-            let draw = || scene.sample_light(&at, turn.u, u, &paths.lambda[i]);
-            match turn.light.then(draw).flatten() {
-                Some(light) => {
-                    put_vector(wi_light, self.path.len(), light.wi);
-                    self.lights.push(light);
-                    self.path.push(path);
-                    self.numbers_of.push(j as u32);
+            let choose = || scene.lights().choose(&at, turn.u);
+            // The light of a first vertex belongs to the first way on.
+            let own = paths.depth[i] > 0 || paths.way[i] == 0;
+            match (own && turn.light).then(choose).flatten() {
+                Some((light, probability)) => {
+                    let u = numbers.on_light.each_ref().map(|c| c[j]);
+                    self.choices.push(light, LightChoice { vertex: j as u32, path, at, u, probability });
                 }
                 None => self.unlit.push((path, j as u32)),
             }
         }
+        self.choices.draw(scene, &paths.lambda, |choice, light| match light {
+            Some(light) => {
+                put_vector(wi_light, self.path.len(), light.wi);
+                self.lights.push(light);
+                self.path.push(choice.path);
+                self.numbers_of.push(choice.vertex);
+            }
+            None => self.unlit.push((choice.path, choice.vertex)),
+        });
         self.path.extend(self.unlit.iter().map(|(path, _)| path));
         self.numbers_of.extend(self.unlit.iter().map(|(_, j)| j));
     }
@@ -190,7 +203,12 @@ impl<'a> Batch<'a> {
     }
 
     /// The next direction of each path; the path ends where there is none, or where roulette says so.
-    pub(super) fn scatter<R: Default>(&mut self, paths: &mut Paths<'_, R>, points: &[Option<SurfacePoint>]) {
+    pub(super) fn scatter<R: Default>(
+        &mut self,
+        how: &PathIntegrator,
+        paths: &mut Paths<'_, R>,
+        points: &[Option<SurfacePoint>],
+    ) {
         let columns = &mut self.columns;
         let numbers = &columns.numbers;
         for (k, &j) in self.numbers_of.iter().enumerate() {
@@ -213,24 +231,23 @@ impl<'a> Batch<'a> {
             paths.ended[i] = true;
             if let (Some(s), Some(point)) = (sample, &points[i]) {
                 let u = columns.numbers.roulette[self.numbers_of[k] as usize];
-                paths.ended[i] = !paths.go_on(i, point, &s, u);
+                paths.ended[i] = !paths.go_on(i, how, point, &s, u);
             }
         }
     }
 }
 
 impl Numbers {
-    /// Those of vertices of one depth, which stand from `first` on.
-    fn fill(&mut self, sampler: &Sampler, paths: &[PixelSampler<'_>], depth: u32, first: usize) {
-        let range = first..first + paths.len();
-        let (light, scatter) = (light_dimension(depth), scatter_dimension(depth));
-        sampler.fill_1d(paths, light, &mut self.light[range.clone()]);
-        sampler.fill_2d(paths, light + 1, self.on_light.each_mut().map(|c| &mut c[range.clone()]));
-        sampler.fill_1d(paths, scatter, &mut self.lobe[range.clone()]);
-        sampler.fill_2d(paths, scatter + 1, self.direction.each_mut().map(|c| &mut c[range.clone()]));
-        if depth > 0 {
-            sampler.fill_1d(paths, scatter + 3, &mut self.roulette[range]);
+    /// Those of vertices whose samplers stand where their dimensions begin; those that choose lights only where there are `choices`.
+    fn fill(&mut self, sampler: &Sampler, paths: &[PixelSampler<'_>], choices: bool) {
+        let scatter = scatter_dimension(0) - light_dimension(0);
+        if choices {
+            sampler.fill_1d(paths, 0, &mut self.light[..]);
         }
+        sampler.fill_2d(paths, 1, self.on_light.each_mut().map(|c| &mut c[..]));
+        sampler.fill_1d(paths, scatter, &mut self.lobe[..]);
+        sampler.fill_2d(paths, scatter + 1, self.direction.each_mut().map(|c| &mut c[..]));
+        sampler.fill_1d(paths, scatter + 3, &mut self.roulette[..]);
     }
 }
 

@@ -14,7 +14,7 @@ use crate::scene::Scene;
 /// Camera samples that are drawn together.
 #[derive(Default)]
 pub(super) struct Fresh<'a> {
-    pixels: Vec<[u32; 2]>,
+    pixels: Vec<([u32; 2], u32)>,
     samplers: Vec<PixelSampler<'a>>,
     lambda: Vec<Wavelengths>,
     columns: Box<Columns>,
@@ -51,7 +51,7 @@ impl<'a> Fresh<'a> {
             for (column, x) in self.columns.place.iter_mut().zip(place) {
                 column[self.pixels.len()] = x as f32;
             }
-            self.pixels.push(pixel);
+            self.pixels.push((pixel, sample));
             self.samplers.push(sampler.start(place, sample));
         }
         let n = self.pixels.len();
@@ -69,20 +69,20 @@ impl<'a> Fresh<'a> {
         scene: &Scene,
         plan: &RenderPlan,
     ) -> impl Iterator<Item = (PixelSampler<'a>, CameraSample)> {
-        self.pixels.iter().enumerate().map(move |(k, &pixel)| {
+        self.pixels.iter().enumerate().map(move |(k, &(pixel, sample))| {
             let columns = &self.columns;
-            let sample = if scene.camera.moves() {
-                CameraSample::new(scene, plan, pixel, &columns.numbers(k))
+            let start = if scene.camera.moves() {
+                CameraSample::new(scene, plan, pixel, sample, &columns.numbers(k))
             } else {
                 let time = if scene.moves { scene.camera.time(columns.time[k]) } else { 0.0 };
                 let ray = Ray { time, ..Ray::new(vector(&columns.o, k), vector(&columns.d, k)) };
                 CameraSample {
-                    place: FilmPlace { pixel, weight: columns.weight[k] },
+                    place: FilmPlace { pixel, weight: columns.weight[k], sample },
                     lambda: self.lambda[k],
                     ray,
                 }
             };
-            (self.samplers[k], sample)
+            (self.samplers[k], start)
         })
     }
 }

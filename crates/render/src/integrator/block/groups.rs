@@ -2,7 +2,7 @@
 
 use core::ops::Range;
 
-/// Vertices with the same key stand side by side, the shallow before the deep; keys come in the order of their first vertex.
+/// Vertices with the same key stand side by side; keys come in the order of their first vertex.
 #[derive(Default)]
 pub(super) struct Groups {
     /// Key, depth and path of each vertex.
@@ -34,9 +34,9 @@ impl Groups {
         self.in_order &= self.vertices.last().is_none_or(|last| last.1 <= depth);
         self.vertices.push((key, depth, path));
     }
-    /// Sorts them into batches of at most `size`.
-    pub(super) fn sort(&mut self, size: usize) {
-        if !self.in_order {
+    /// Sorts them into batches of at most `size`; if asked, with the shallow before the deep.
+    pub(super) fn sort(&mut self, size: usize, by_depth: bool) {
+        if by_depth && !self.in_order {
             self.vertices.sort_unstable_by_key(|&(_, depth, path)| (depth, path));
         }
         let mut next = 0;
@@ -79,7 +79,7 @@ mod tests {
             for path in 0..7 {
                 groups.push([3, 1, 3, 4, 1, 3, 3][path], [0, 0, 0, 0, 2, 1, 0][path], path as u32 + round);
             }
-            groups.sort(3);
+            groups.sort(3, true);
             let found: Vec<_> = (0..groups.len()).map(|i| groups.batch(i)).collect();
             let moved = |paths: &[u32]| paths.iter().map(|p| p + round).collect::<Vec<_>>();
             let (three, rest, one, four) = (moved(&[0, 2, 6]), moved(&[5]), moved(&[1, 4]), moved(&[3]));

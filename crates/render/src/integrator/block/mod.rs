@@ -8,9 +8,11 @@
 
 mod batch;
 mod column;
+mod families;
 mod fresh;
 mod groups;
 mod lanes;
+mod lights;
 mod paths;
 mod shadow;
 
@@ -19,10 +21,12 @@ use sparrow_geometry::{Hit, SurfacePoint};
 use self::batch::Batch;
 use self::column::BATCH;
 pub(crate) use self::column::{Column, pad};
+use self::families::Families;
 use self::fresh::Fresh;
 use self::groups::Groups;
 use self::paths::Paths;
 use self::shadow::Shadows;
+use super::start::FilmPlace;
 use super::{Exposed, Finder, PathIntegrator, RayCounts, Record};
 use crate::observe::TileObserver;
 use crate::plan::RenderPlan;
@@ -36,6 +40,7 @@ const N_PATHS: usize = 1024;
 pub(crate) struct Block<'a, R> {
     fresh: Fresh<'a>,
     paths: Paths<'a, R>,
+    families: Families,
     hits: Vec<Option<Hit>>,
     points: Vec<Option<SurfacePoint>>,
     groups: Groups,
@@ -49,6 +54,7 @@ impl<R: Record + Default> Default for Block<'_, R> {
         Block {
             fresh: Fresh::default(),
             paths: Paths::default(),
+            families: Families::default(),
             hits: Vec::new(),
             points: Vec::new(),
             groups: Groups::default(),
@@ -68,19 +74,21 @@ impl<'a, R: Record + Default> Block<'a, R> {
         samples: &mut impl Iterator<Item = ([u32; 2], u32)>,
         tile: &mut Exposed<'_, T>,
     ) -> RayCounts {
-        let how = tile.plan.integrator;
-        while self.generate(scene, tile.plan, sampler, samples) {
+        let how = tile.how;
+        self.families.begin(how.splits);
+        while self.generate(scene, tile.plan, &how, sampler, samples) {
             self.intersect(scene);
             self.emitted(scene, &how);
-            self.group(scene, &how);
+            self.branch(scene, tile.plan, &how, sampler);
+            self.group(scene, sampler, &how);
             for i in 0..self.groups.len() {
                 let (key, paths) = self.groups.batch(i);
-                self.batch.draw(sampler, &self.paths, paths);
+                self.batch.draw(scene, &how, sampler, &self.paths, paths);
                 self.batch.sample_lights(scene, &how, &mut self.paths, &self.points, paths);
                 self.batch.bind(scene, &mut self.paths, &self.points, key);
                 self.batch.f_cos_pdf();
                 self.shadows.push(&how, &self.batch, &self.paths, &self.points);
-                self.batch.scatter(&mut self.paths, &self.points);
+                self.batch.scatter(&how, &mut self.paths, &self.points);
             }
             self.rays.shadow += self.shadows.trace(scene, &mut self.paths);
             self.film(tile);
@@ -94,21 +102,39 @@ impl<'a, R: Record + Default> Block<'a, R> {
         &mut self,
         scene: &Scene,
         plan: &RenderPlan,
+        how: &PathIntegrator,
         sampler: &'a Sampler,
         samples: &mut impl Iterator<Item = ([u32; 2], u32)>,
     ) -> bool {
-        let before = self.paths.len();
-        while self.paths.len() < N_PATHS {
-            let room = N_PATHS - self.paths.len();
-            if !self.fresh.draw(scene, sampler, plan, &mut samples.take(room)) {
-                break;
-            }
-            for (sampler, sample) in self.fresh.iter(scene, plan) {
-                self.paths.push(sampler, sample);
+        let mut room = N_PATHS.saturating_sub(self.paths.len()) / how.splits as usize;
+        while room > 0 && self.fresh.draw(scene, sampler, plan, &mut samples.take(room)) {
+            for (sampler, start) in self.fresh.iter(scene, plan) {
+                let family = if how.splits > 1 { self.families.push(start.place) } else { 0 };
+                self.paths.push(sampler, start, family);
+                self.rays.camera += 1;
+                room -= 1;
             }
         }
-        self.rays.camera += (self.paths.len() - before) as u64;
         self.paths.len() > 0
+    }
+
+    /// Paths at their first vertex go on in several ways.
+    fn branch(&mut self, scene: &Scene, plan: &RenderPlan, how: &PathIntegrator, sampler: &'a Sampler) {
+        if how.splits == 1 || how.max_depth == 0 || how.max_smooth == 0 {
+            return;
+        }
+        let paths = &mut self.paths;
+        for i in 0..paths.len() {
+            let there = self.points[i].filter(|point| scene.material_of(point).is_some());
+            let Some(point) = there.filter(|_| paths.depth[i] == 0) else { continue };
+            let FilmPlace { pixel, sample, .. } = paths.place[i];
+            for way in 1..how.splits {
+                let sample = plan.sample_of_way(sample, way);
+                paths.branch(i, way, sampler.start(plan.in_full_picture(pixel), sample));
+                self.points.push(Some(point));
+            }
+            self.families.grow(paths.family[i], how.splits - 1);
+        }
     }
 
     /// The nearest surface of each path's ray.
@@ -130,7 +156,7 @@ impl<'a, R: Record + Default> Block<'a, R> {
     }
 
     /// Paths end, pass through, or have a vertex: these are put together by material.
-    fn group(&mut self, scene: &Scene, how: &PathIntegrator) {
+    fn group(&mut self, scene: &Scene, sampler: &Sampler, how: &PathIntegrator) {
         let paths = &mut self.paths;
         self.groups.clear(2 * scene.n_materials());
         for (i, hit) in self.points.iter().enumerate() {
@@ -148,7 +174,7 @@ impl<'a, R: Record + Default> Block<'a, R> {
                 None => paths.ray[i] = point.spawn(paths.ray[i].d),
             }
         }
-        self.groups.sort(BATCH);
+        self.groups.sort(BATCH, sampler.has_tables());
     }
 
     /// Hands over the light of paths that have ended, and forgets them.
@@ -156,10 +182,18 @@ impl<'a, R: Record + Default> Block<'a, R> {
         let paths = &mut self.paths;
         // From the end, so that what takes the place of a path has been looked at.
         for i in (0..paths.len()).rev() {
-            if paths.ended[i] {
-                tile.take(paths.place[i], paths.l[i], &paths.lambda[i], &paths.record[i]);
-                paths.remove(i);
+            if !paths.ended[i] {
+                continue;
             }
+            if tile.how.splits == 1 {
+                tile.take(paths.place[i], paths.l[i], &paths.lambda[i], &paths.record[i]);
+            } else {
+                let part = tile.part(paths.l[i], &paths.lambda[i]);
+                if let Some((place, parts)) = self.families.take(paths.family[i], paths.way[i], part) {
+                    tile.take_parts(place, parts);
+                }
+            }
+            paths.remove(i);
         }
     }
 }

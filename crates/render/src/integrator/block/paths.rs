@@ -3,9 +3,9 @@
 use sparrow_geometry::{Ray, SurfacePoint};
 use sparrow_spectra::{Spectrum, Wavelengths};
 
-use crate::integrator::CameraSample;
 use crate::integrator::path::roulette;
 use crate::integrator::start::FilmPlace;
+use crate::integrator::{CameraSample, PathIntegrator};
 use crate::light::LitPoint;
 use crate::sampler::PixelSampler;
 use crate::scatter::{Density, ScatterSample};
@@ -22,6 +22,10 @@ pub(super) struct Paths<'a, R> {
     pub(super) eta_scale: Vec<f32>,
     pub(super) last: Vec<Option<LastVertex>>,
     pub(super) depth: Vec<u32>,
+    /// Which way on from the first vertex it takes.
+    pub(super) way: Vec<u32>,
+    /// Of the camera sample that it belongs to, where there are several ways.
+    pub(super) family: Vec<u32>,
     pub(super) n_smooth: Vec<u32>,
     /// The direction from the BSDF looks for lights.
     pub(super) looks: Vec<bool>,
@@ -41,6 +45,8 @@ impl<R> Default for Paths<'_, R> {
             eta_scale: Vec::new(),
             last: Vec::new(),
             depth: Vec::new(),
+            way: Vec::new(),
+            family: Vec::new(),
             n_smooth: Vec::new(),
             looks: Vec::new(),
             ended: Vec::new(),
@@ -55,7 +61,7 @@ impl<'a, R: Default> Paths<'a, R> {
     }
 
     /// A new path.
-    pub(super) fn push(&mut self, sampler: PixelSampler<'a>, start: CameraSample) {
+    pub(super) fn push(&mut self, sampler: PixelSampler<'a>, start: CameraSample, family: u32) {
         self.place.push(start.place);
         self.sampler.push(sampler);
         self.lambda.push(start.lambda);
@@ -65,10 +71,22 @@ impl<'a, R: Default> Paths<'a, R> {
         self.eta_scale.push(1.0);
         self.last.push(None);
         self.depth.push(0);
+        self.way.push(0);
+        self.family.push(family);
         self.n_smooth.push(0);
         self.looks.push(true);
         self.ended.push(false);
         self.record.push(R::default());
+    }
+
+    /// Another way on from the first vertex of path `i`; what the path has found up to there stays with the first.
+    pub(super) fn branch(&mut self, i: usize, way: u32, sampler: PixelSampler<'a>) {
+        let lambda = self.lambda[i];
+        let start = CameraSample { place: self.place[i], lambda, ray: self.ray[i] };
+        self.push(sampler, start, self.family[i]);
+        if let Some(last) = self.way.last_mut() {
+            *last = way;
+        }
     }
 
     /// Puts the last path in the place of one that has ended.
@@ -82,6 +100,8 @@ impl<'a, R: Default> Paths<'a, R> {
         self.eta_scale.swap_remove(i);
         self.last.swap_remove(i);
         self.depth.swap_remove(i);
+        self.way.swap_remove(i);
+        self.family.swap_remove(i);
         self.n_smooth.swap_remove(i);
         self.looks.swap_remove(i);
         self.ended.swap_remove(i);
@@ -90,14 +110,21 @@ impl<'a, R: Default> Paths<'a, R> {
 
     /// Takes path `i` from `point` along a sampled direction; false where roulette ends it, by the uniform number `u`.
     #[inline]
-    pub(super) fn go_on(&mut self, i: usize, point: &SurfacePoint, s: &ScatterSample, u: f32) -> bool {
-        let beta = &mut self.beta[i];
-        *beta *= s.weight;
-        self.eta_scale[i] *= s.eta * s.eta;
+    pub(super) fn go_on(
+        &mut self,
+        i: usize,
+        how: &PathIntegrator,
+        point: &SurfacePoint,
+        s: &ScatterSample,
+        u: f32,
+    ) -> bool {
+        let (beta, n) = (&mut self.beta[i], how.ways_on(self.depth[i]));
+        *beta *= s.weight * (1.0 / n);
+        self.eta_scale[i] *= s.eta * s.eta * n;
         self.last[i] = match s.density {
             Density::SolidAngle(pdf) => {
                 self.n_smooth[i] += 1;
-                let pdf = if self.looks[i] { pdf } else { 0.0 };
+                let pdf = if self.looks[i] { n * pdf } else { 0.0 };
                 Some(LastVertex { at: LitPoint { p: point.p, n: point.ns }, pdf })
             }
             Density::Delta(_) => None,

@@ -41,7 +41,7 @@ impl Shadows {
             let i = batch.path[k] as usize;
             let (f_cos, pdf) = batch.value(k);
             let Some(point) = points[i].as_ref().filter(|_| !f_cos.is_black()) else { continue };
-            let s = Scattered::new(how.mis, light, f_cos, pdf);
+            let s = Scattered::new(how.mis, light, f_cos, how.ways_on(paths.depth[i]) * pdf);
             let beta = paths.beta[i];
             self.rays.push(shadow_ray(point, light));
             self.pending.push(Pending {

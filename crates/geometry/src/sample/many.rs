@@ -1,0 +1,122 @@
+//! One shape, drawn from many viewpoints at once, in lanes.
+
+use sparrow_math::{InLanes, Real, Vec3, in_lanes, vec3};
+
+use super::Viewpoint;
+use crate::point::ShapeSample;
+
+/// A shape to which directions are drawn by one text, from one viewpoint or from lanes of them.
+pub(crate) trait Draw {
+    /// From a point with unit normal `n`, if directions are to follow its cosine.
+    fn draw<R: Real>(&self, from: Vec3<R>, n: Option<Vec3<R>>, u: [R; 2]) -> Drawn<R>;
+
+    /// From one viewpoint.
+    #[inline]
+    fn draw_one(&self, from: &Viewpoint, u: [f32; 2]) -> Drawn<f32> {
+        self.draw(from.p, from.n, u)
+    }
+}
+
+/// A point of a shape.
+pub(crate) struct Drawn<R> {
+    pub(crate) p: Vec3<R>,
+    /// Unit normal, its side chosen by the shape.
+    pub(crate) n: Vec3<R>,
+    /// Unit direction to it.
+    pub(crate) wi: Vec3<R>,
+    pub(crate) distance: R,
+    /// Density per steradian.
+    pub(crate) pdf: R,
+}
+
+impl Drawn<f32> {
+    /// `None` where the point is seen edge-on, lies at the viewpoint, or where the shape is too small a target.
+    #[inline]
+    pub(crate) fn sample(&self, p_error: Vec3<f32>, n: Vec3<f32>) -> Option<ShapeSample> {
+        let there = self.pdf > 0.0 && self.pdf < f32::MAX && self.distance > 0.0 && self.p.is_finite();
+        there.then_some(ShapeSample {
+            p: self.p,
+            p_error,
+            n,
+            wi: self.wi,
+            distance: self.distance,
+            pdf: self.pdf,
+        })
+    }
+}
+
+/// Viewpoints from which one primitive is drawn, and room for what is drawn; all columns have the same length, a multiple of
+/// [`MAX_WIDTH`](sparrow_math::MAX_WIDTH).
+#[derive(Debug)]
+pub struct SampleColumns<'a> {
+    /// Points.
+    pub from: [&'a [f32]; 3],
+    /// Their unit normals: see [`Viewpoint::n`].
+    pub n: [&'a [f32]; 3],
+    /// Uniform numbers.
+    pub u: [&'a [f32]; 2],
+    /// Points of the primitive.
+    pub p: [&'a mut [f32]; 3],
+    /// Their normals.
+    pub on: [&'a mut [f32]; 3],
+    /// Unit directions.
+    pub wi: [&'a mut [f32]; 3],
+    /// Distances.
+    pub distance: &'a mut [f32],
+    /// Densities per steradian.
+    pub pdf: &'a mut [f32],
+}
+
+impl SampleColumns<'_> {
+    /// Draws from each of the first `n` viewpoints.
+    pub(crate) fn draw(&mut self, shape: &impl Draw, n: usize) {
+        in_lanes(Many { shape, columns: self, n });
+    }
+    /// What was drawn from viewpoint `k`.
+    #[inline]
+    pub(crate) fn get(&self, k: usize) -> Drawn<f32> {
+        let vector = |c: &[&mut [f32]; 3]| vec3(c[0][k], c[1][k], c[2][k]);
+        Drawn {
+            p: vector(&self.p),
+            n: vector(&self.on),
+            wi: vector(&self.wi),
+            distance: self.distance[k],
+            pdf: self.pdf[k],
+        }
+    }
+}
+
+struct Many<'a, 'b, S> {
+    shape: &'a S,
+    columns: &'a mut SampleColumns<'b>,
+    n: usize,
+}
+
+impl<S: Draw> InLanes for Many<'_, '_, S> {
+    type Output = ();
+    #[inline(always)]
+    fn run<R: Real>(self) {
+        let c = self.columns;
+        for k in (0..self.n).step_by(R::WIDTH) {
+            let u = [R::load(c.u[0], k), R::load(c.u[1], k)];
+            let drawn = self.shape.draw(load(&c.from, k), Some(load(&c.n, k)), u);
+            store(drawn.p, &mut c.p, k);
+            store(drawn.n, &mut c.on, k);
+            store(drawn.wi, &mut c.wi, k);
+            drawn.distance.store(c.distance, k);
+            drawn.pdf.store(c.pdf, k);
+        }
+    }
+}
+
+#[inline(always)]
+fn load<R: Real>(c: &[&[f32]; 3], k: usize) -> Vec3<R> {
+    vec3(R::load(c[0], k), R::load(c[1], k), R::load(c[2], k))
+}
+
+#[inline(always)]
+fn store<R: Real>(v: Vec3<R>, c: &mut [&mut [f32]; 3], k: usize) {
+    v.x.store(c[0], k);
+    v.y.store(c[1], k);
+    v.z.store(c[2], k);
+}
