@@ -19,6 +19,7 @@ fn left(role: RgbRole, length: f32) -> [f64; 3] {
     space.xyz_to_rgb().map(|row| (0..3).map(|i| f64::from(row[i]) * xyz[i]).sum())
 }
 
+#[allow(clippy::print_stdout, reason = "an example shows its table")]
 fn main() {
     println!("length    unbounded                 reflectance               ratio");
     for length in [0.5, 1.0, 2.0, 4.0, 8.0] {
