@@ -19,8 +19,8 @@ use crate::{console, paths};
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Lengths are those of the mesh. A strand starts along the normal, leaning towards the flow, and is bent by gravity and noise; clumps \
-draw tips together; curl winds what comes out. Strands do not know the body beyond their root. The same mesh, options and \
-seed give the same file, byte for byte.")]
+draw tips together; curl winds what comes out. With --body strands stay outside of it, each at a distance of its own up to the \
+clearance. The same meshes, options and seed give the same file, byte for byte.")]
 #[command(allow_negative_numbers = true)]
 pub(crate) struct GroomArgs {
     /// Mesh, in the PLY or the OBJ format
@@ -29,6 +29,11 @@ pub(crate) struct GroomArgs {
     /// Name of the file [default: the mesh's, in the current folder]
     #[arg(short, long, value_name = "OUT.hair", value_parser = PathBufValueParser::new().try_map(parse_output))]
     output: Option<PathBuf>,
+
+    /// Closed mesh that strands stay outside of, in the coordinates of the other; several, that may be parts of one, are given one by
+    /// one [default: none]
+    #[arg(long, value_name = "MESH")]
+    body: Vec<PathBuf>,
 
     /// Number of strands
     #[arg(long, value_name = "N", default_value_t = 10_000, conflicts_with = "density")]
@@ -58,8 +63,8 @@ pub(crate) struct GroomArgs {
     #[arg(long, value_name = "X")]
     width_tip: Option<f64>,
 
-    /// Direction in which the coat lies: x,y,z, the same everywhere; from:x,y,z, away from a point; around:x,y,z, around an axis
-    /// through the origin; u or v, where a texture coordinate grows
+    /// Direction in which the coat lies: x,y,z, the same everywhere; from:x,y,z, away from a point; parting:x,y,z:x,y,z, away
+    /// from a line between two points; around:x,y,z, around an axis through the origin; u or v, where a texture coordinate grows
     #[arg(long, value_name = "FLOW", default_value = "0,-1,0", value_parser = parse_flow)]
     flow: Flow,
 
@@ -90,6 +95,10 @@ pub(crate) struct GroomArgs {
     /// Windings of curls from root to tip
     #[arg(long, value_name = "X", default_value_t = 3.0)]
     curl_turns: f64,
+
+    /// Most distance from the body, of which each strand keeps its own share
+    #[arg(long, value_name = "X", default_value_t = 0.0)]
+    clearance: f64,
 
     /// Seed of all that is random
     #[arg(long, value_name = "N", default_value_t = 0)]
@@ -126,9 +135,10 @@ pub(crate) fn run(args: &GroomArgs) -> Result<u8, Failure> {
     });
     paths::check_writable(&output)?;
     let in_mesh = |e: &dyn std::fmt::Display| Failure::input(format!("{}: {e}", args.mesh.display()));
-    let mesh = read_mesh(args)?;
-    let surface = Surface { p: &mesh.p, n: &mesh.n, uv: &mesh.uv, triangles: &mesh.triangles };
-    let groom = grow(&surface, &style).map_err(|e| in_mesh(&e))?;
+    let mesh = read_mesh(&args.mesh, args)?;
+    let body = args.body.iter().map(|path| read_mesh(path, args)).collect::<Result<Vec<_>, _>>()?;
+    let body: Vec<_> = body.iter().map(surface).collect();
+    let groom = grow(&surface(&mesh), &body, &style).map_err(|e| in_mesh(&e))?;
     let bytes = hair_bytes(groom.strands())
         .ok_or_else(|| in_mesh(&"the strands do not fit into a .hair file; lower density or segments"))?;
     paths::write_whole(&output, &bytes)?;
@@ -143,14 +153,18 @@ pub(crate) fn run(args: &GroomArgs) -> Result<u8, Failure> {
     report(args, &outcome)
 }
 
-/// The mesh to grow on: OBJ where the file's name ends so, else PLY.
-fn read_mesh(args: &GroomArgs) -> Result<ObjMesh, Failure> {
-    if args.mesh.extension().is_some_and(|e| e.eq_ignore_ascii_case("obj")) {
-        return obj::read(&args.mesh).map_err(|e| Failure::input(e.to_string()));
+fn surface(mesh: &ObjMesh) -> Surface<'_> {
+    Surface { p: &mesh.p, n: &mesh.n, uv: &mesh.uv, triangles: &mesh.triangles }
+}
+
+/// A mesh: OBJ where the file's name ends so, else PLY.
+fn read_mesh(path: &Path, args: &GroomArgs) -> Result<ObjMesh, Failure> {
+    if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("obj")) {
+        return obj::read(path).map_err(|e| Failure::input(e.to_string()));
     }
-    let mesh = ply::read(&args.mesh).map_err(|e| Failure::input(e.to_string()))?;
+    let mesh = ply::read(path).map_err(|e| Failure::input(e.to_string()))?;
     for note in mesh.notes.iter().filter(|_| !args.quiet) {
-        console::log(format!("{}: {note}", args.mesh.display()));
+        console::log(format!("{}: {note}", path.display()));
     }
     let mut triangles = mesh.triangles;
     triangles.extend(mesh.quads.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]));
@@ -184,6 +198,7 @@ fn style(args: &GroomArgs) -> Style {
         clump_size: args.clump_size,
         curl: args.curl,
         curl_turns: args.curl_turns,
+        clearance: args.clearance,
         seed: args.seed,
     }
 }
@@ -212,7 +227,11 @@ fn parse_flow(s: &str) -> Result<Flow, String> {
         None => parse_vector(s).map(Flow::Along),
         Some(("from", p)) => parse_vector(p).map(Flow::From),
         Some(("around", axis)) => parse_vector(axis).map(Flow::Around),
-        Some(_) => Err("give x,y,z, from:x,y,z, around:x,y,z, u or v".to_owned()),
+        Some(("parting", line)) => match line.split_once(':') {
+            Some((a, b)) => Ok(Flow::Parting([parse_vector(a)?, parse_vector(b)?])),
+            None => Err("give the two ends of the parting, parting:x,y,z:x,y,z".to_owned()),
+        },
+        Some(_) => Err("give x,y,z, from:x,y,z, parting:x,y,z:x,y,z, around:x,y,z, u or v".to_owned()),
     }
 }
 
@@ -225,8 +244,10 @@ mod tests {
         assert_eq!(parse_flow("1, 0,-2"), Ok(Flow::Along(vec3(1.0, 0.0, -2.0))));
         assert_eq!(parse_flow("from:0,1,0"), Ok(Flow::From(vec3(0.0, 1.0, 0.0))));
         assert_eq!(parse_flow("around:0,1,0"), Ok(Flow::Around(vec3(0.0, 1.0, 0.0))));
+        let line = [vec3(0.0, 1.0, 2.0), vec3(0.0, 1.0, -1.0)];
+        assert_eq!(parse_flow("parting:0,1,2:0,1,-1"), Ok(Flow::Parting(line)));
         assert_eq!((parse_flow("u"), parse_flow("v")), (Ok(Flow::U), Ok(Flow::V)));
-        for bad in ["", "w", "1,2", "1,2,3,4", "nan,0,0", "to:1,0,0", "from:u"] {
+        for bad in ["", "w", "1,2", "1,2,3,4", "nan,0,0", "to:1,0,0", "from:u", "parting:0,1,2"] {
             assert!(parse_flow(bad).is_err(), "{bad}");
         }
     }

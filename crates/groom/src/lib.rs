@@ -7,12 +7,16 @@
 //! 2. axes of a clump are drawn together towards their tips ([`Style::clump`]);
 //! 3. each is wound into a helix ([`Style::curl`]).
 //!
-//! Strands know nothing of the body beyond their own root: long ones that gravity bends may pass through it.
+//! Strands stay outside of the body that is given beside the surface, at distances up to [`Style::clearance`]: steps of the axis that
+//! would enter it turn along it, and what clumps and curls move into it is moved out again. That holds for the points; between two of
+//! them a strand is drawn straight or by a spline, so that the clearance has to cover what the body rises over such a chord. Of
+//! each other strands know nothing.
 //!
 //! Every strand has random numbers of its own, from the seed and its place in the list, so that the same surface and style
 //! give the same bits everywhere.
 
 mod axis;
+mod body;
 mod clumps;
 mod curl;
 mod error;
@@ -26,7 +30,8 @@ pub use error::GroomError;
 pub use style::{Count, Flow, Style};
 pub use surface::Surface;
 
-use axis::Axis;
+use axis::{Axis, Space};
+use body::Body;
 use clumps::Clumps;
 use curl::curled;
 use surface::Scalp;
@@ -50,12 +55,13 @@ impl Groom {
     }
 }
 
-/// Grows strands.
+/// Grows strands from `surface`, outside of `body`: closed meshes, or several that together are closed, or none.
 ///
 /// # Errors
 /// A style out of range, a mesh that nothing can grow on, or more points than [`MAX_POINTS`].
-pub fn grow(surface: &Surface, style: &Style) -> Result<Groom, GroomError> {
+pub fn grow(surface: &Surface, body: &[Surface<'_>], style: &Style) -> Result<Groom, GroomError> {
     style.check()?;
+    let body = Body::new(body)?;
     let scalp = Scalp::new(surface, &style.flow)?;
     let n = match style.count {
         Count::Strands(n) => f64::from(n),
@@ -70,10 +76,14 @@ pub fn grow(surface: &Surface, style: &Style) -> Result<Groom, GroomError> {
     }
     let n = n as usize;
     let roots: Vec<_> = (0..n).map(|i| scalp.root(i, n, &mut random(style.seed, i, Use::Root))).collect();
+    let spaces: Vec<_> = (0..n)
+        .map(|i| Space { body: &body, keep: style.clearance * random(style.seed, i, Use::Space).uniform() })
+        .collect();
     let axes = roots
         .iter()
+        .zip(&spaces)
         .enumerate()
-        .map(|(i, root)| Axis::grow(root, style, &mut random(style.seed, i, Use::Axis)))
+        .map(|(i, (root, space))| Axis::grow(root, style, space, &mut random(style.seed, i, Use::Axis)))
         .collect::<Vec<_>>();
     let clumps = (style.clump > 0.0).then(|| Clumps::new(&axes, style.clump_size));
     let mut points = Vec::with_capacity(n * (usize::from(style.n_segments) + 1));
@@ -83,9 +93,10 @@ pub fn grow(surface: &Surface, style: &Style) -> Result<Groom, GroomError> {
         // A clump is wound as one.
         let phase = random(style.seed, guide, Use::Curl).within(0.0, core::f64::consts::TAU);
         let wound = curled(&drawn, style, phase);
-        let last = f64::from(style.n_segments);
+        let last = usize::from(style.n_segments);
         for (k, p) in wound.into_iter().enumerate() {
-            let width = style.width[0].lerp(style.width[1], k as f64 / last);
+            let p = spaces[i].free(p, k, last).unwrap_or(p);
+            let width = style.width[0].lerp(style.width[1], k as f64 / last as f64);
             let point = [p.x, p.y, p.z, width].map(|v| v as f32);
             if !point.iter().all(|v| v.is_finite()) {
                 return Err(GroomError::TooLarge);
@@ -102,6 +113,7 @@ enum Use {
     Root,
     Axis,
     Curl,
+    Space,
 }
 
 /// The random numbers of strand `i` for one use.

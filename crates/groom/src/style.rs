@@ -20,6 +20,8 @@ pub enum Flow {
     Along(Vec3<f64>),
     /// Away from a point.
     From(Vec3<f64>),
+    /// Away from the nearest point of a line between two points.
+    Parting([Vec3<f64>; 2]),
     /// Around an axis through the origin, by the right hand.
     Around(Vec3<f64>),
     /// Along the first texture coordinate, where it grows.
@@ -57,6 +59,8 @@ pub struct Style {
     pub curl: f64,
     /// Windings of the helix from root to tip, 0 or more.
     pub curl_turns: f64,
+    /// Most distance that strands keep from the body, each a share of its own; 0 or more.
+    pub clearance: f64,
     /// Seed of all that is random.
     pub seed: u64,
 }
@@ -77,6 +81,7 @@ impl Default for Style {
             clump_size: 40,
             curl: 0.0,
             curl_turns: 3.0,
+            clearance: 0.0,
             seed: 0,
         }
     }
@@ -93,6 +98,7 @@ impl Style {
         let flow = match self.flow {
             Flow::Along(v) | Flow::Around(v) => v.length(),
             Flow::From(p) => p.length() + 1.0,
+            Flow::Parting([a, b]) => (b - a).length(),
             Flow::U | Flow::V => 1.0,
         };
         let most = f64::MAX;
@@ -111,6 +117,7 @@ impl Style {
             ("the size of clumps", f64::from(self.clump_size), [1.0, most], "of 1 or more"),
             ("the curl", self.curl, [0.0, most], "not below 0"),
             ("the number of windings", self.curl_turns, [0.0, most], "not below 0"),
+            ("the clearance", self.clearance, [0.0, most], "not below 0"),
         ];
         match ranges.into_iter().find(|(_, value, [lo, hi], _)| !(lo..=hi).contains(&value)) {
             Some((name, value, _, wanted)) => Err(GroomError::OutOfRange { name, value, wanted }),

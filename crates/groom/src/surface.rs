@@ -18,6 +18,23 @@ pub struct Surface<'a> {
     pub triangles: &'a [[u32; 3]],
 }
 
+impl Surface<'_> {
+    /// # Errors
+    /// A face with a vertex that is missing or not finite.
+    pub(crate) fn check(&self) -> Result<(), GroomError> {
+        let there = |i: u32| self.p.get(i as usize).is_some_and(|p| p.iter().all(|v| v.is_finite()));
+        match self.triangles.iter().position(|t| !t.iter().all(|&i| there(i))) {
+            Some(face) => Err(GroomError::BadFace { face }),
+            None => Ok(()),
+        }
+    }
+
+    /// The corners of a triangle whose vertices exist.
+    pub(crate) fn corners(&self, t: [u32; 3]) -> [Vec3<f64>; 3] {
+        t.map(|i| Vec3::from(self.p[i as usize]).to_f64())
+    }
+}
+
 /// Where a strand begins.
 pub(crate) struct Root {
     pub(crate) p: Vec3<f64>,
@@ -40,12 +57,9 @@ impl<'a> Scalp<'a> {
         if surface.triangles.is_empty() {
             return Err(GroomError::NoFaces);
         }
+        surface.check()?;
         if matches!(flow, Flow::U | Flow::V) && surface.uv.is_empty() {
             return Err(GroomError::NoCoordinates);
-        }
-        let there = |i: u32| surface.p.get(i as usize).is_some_and(|p| p.iter().all(|v| v.is_finite()));
-        if let Some(face) = surface.triangles.iter().position(|t| !t.iter().all(|&i| there(i))) {
-            return Err(GroomError::BadFace { face });
         }
         let mut scalp = Scalp { surface: *surface, flow, areas: Vec::with_capacity(surface.triangles.len()) };
         let mut sum = 0.0;
@@ -68,19 +82,15 @@ impl<'a> Scalp<'a> {
         let t = self.surface.triangles[found];
         let [b0, b1] = warp::uniform_triangle([random.uniform(), random.uniform()]);
         let b = [b0, b1, 1.0 - b0 - b1];
-        let [p0, p1, p2] = self.corners(t);
+        let [p0, p1, p2] = self.surface.corners(t);
         let p = p0 * b[0] + p1 * b[1] + p2 * b[2];
         let n = self.normal(t, b);
         Root { p, n, flow: self.flow(t, p, n) }
     }
 
-    fn corners(&self, t: [u32; 3]) -> [Vec3<f64>; 3] {
-        t.map(|i| Vec3::from(self.surface.p[i as usize]).to_f64())
-    }
-
     /// Vector product of two sides.
     fn cross(&self, t: [u32; 3]) -> Vec3<f64> {
-        let [a, b, c] = self.corners(t);
+        let [a, b, c] = self.surface.corners(t);
         (b - a).cross(c - a)
     }
 
@@ -98,6 +108,10 @@ impl<'a> Scalp<'a> {
         let v = match *self.flow {
             Flow::Along(v) => v,
             Flow::From(from) => p - from,
+            Flow::Parting([a, b]) => {
+                let t = (p - a).dot(b - a) / (b - a).length2();
+                p - (a + (b - a) * t.clamp(0.0, 1.0))
+            }
             Flow::Around(axis) => axis.cross(p),
             Flow::U => self.gradient(t, 0),
             Flow::V => self.gradient(t, 1),
@@ -110,7 +124,7 @@ impl<'a> Scalp<'a> {
     /// The gradient of a texture coordinate over the face, of any length; its direction is that in which the coordinate grows
     /// fastest.
     fn gradient(&self, t: [u32; 3], k: usize) -> Vec3<f64> {
-        let [a, b, c] = self.corners(t);
+        let [a, b, c] = self.surface.corners(t);
         let n = self.cross(t);
         let at = |i: usize| self.surface.uv.get(t[i] as usize).map_or(0.0, |uv| f64::from(uv[k]));
         n.cross(c - b) * at(0) + n.cross(a - c) * at(1) + n.cross(b - a) * at(2)

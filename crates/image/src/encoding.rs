@@ -60,7 +60,7 @@ impl Encoding {
     }
 
     /// The linear value of every 8-bit code.
-    pub(crate) fn table(self) -> Box<[f32; 256]> {
+    pub fn table(self) -> Box<[f32; 256]> {
         let mut t = Box::new([0.0; 256]);
         for (code, v) in t.iter_mut().enumerate() {
             *v = self.to_linear(code as f64 / 255.0) as f32;

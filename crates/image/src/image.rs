@@ -156,6 +156,11 @@ impl Image {
         self.channels.iter().position(|c| c == name)
     }
 
+    /// The channels that [`rgb`](Self::rgb) shows; three times the same where the image has no colour.
+    pub fn rgb_channels(&self) -> [usize; 3] {
+        self.rgb
+    }
+
     /// Number of channels.
     pub fn n_channels(&self) -> usize {
         self.channels.len()

@@ -4,7 +4,7 @@
 //! [AbramowitzStegun, 9.8.1, 9.8.2]. Largest errors seen in the tests, in units in the last place:
 //! `exp` 1.5, `ln` 1.5, `sin`, `cos` 2 on [0, 2 pi], `atan2` 3.5, `i0e` 12.
 
-use crate::real::Real;
+use crate::real::{Mask, Real};
 use core::f64::consts::{FRAC_1_SQRT_2, FRAC_2_PI, FRAC_PI_2, FRAC_PI_4, LOG2_E, PI};
 
 /// Horner's rule; coefficients from the highest power down.
@@ -36,6 +36,26 @@ pub fn exp<R: Real>(x: R) -> R {
         ],
     );
     (p.fma(r * r, r) + R::ONE) * n.pow2()
+}
+
+/// `e^x` for `x <= 88`, with a relative error of 2e-7 and another 1e-7 for each unit of `x`: `2^y` for `y = x log2 e`, rounded once.
+/// The polynomial is the best of fifth degree that is 1 at 0.
+#[inline(always)]
+pub fn exp_coarse<R: Real>(x: R) -> R {
+    let y = (x * R::of(LOG2_E)).max(R::of(-127.0));
+    let n = y.round();
+    let p = poly(
+        y - n,
+        [
+            1.326_472_724_7e-3,
+            9.671_512_688_2e-3,
+            5.550_733_743_6e-2,
+            2.402_224_208_5e-1,
+            6.931_469_776e-1,
+            1.0,
+        ],
+    );
+    p * n.pow2()
 }
 
 /// Natural logarithm of a positive normal number.
@@ -118,24 +138,30 @@ pub fn i0e<R: Real>(x: R) -> R {
 /// `m` and `k` with `e^-x I_0(x) = m e^k` for `x >= 0`, `k` not above zero. [AbramowitzStegun, 9.8.1, 9.8.2]
 #[inline(always)]
 pub fn i0e_parts<R: Real>(x: R) -> (R, R) {
-    let t = (x * R::of(1.0 / 3.75)).sqr();
-    let small = poly(t, [0.0045813, 0.0360768, 0.2659732, 1.2067492, 3.0899424, 3.5156229, 1.0]);
-    let inv_sqrt = R::ONE / x.max(R::of(3.75)).sqrt();
-    let t = R::of(3.75) * inv_sqrt.sqr();
-    let large = poly(
-        t,
-        [
-            0.00392377,
-            -0.01647633,
-            0.02635537,
-            -0.02057706,
-            0.00916281,
-            -0.00157565,
-            0.00225319,
-            0.01328592,
-            0.39894228,
-        ],
-    ) * inv_sqrt;
     let narrow = x.lt(R::of(3.75));
+    let (mut small, mut large) = (R::ZERO, R::ZERO);
+    if narrow.any() {
+        let t = (x * R::of(1.0 / 3.75)).sqr();
+        small = poly(t, [0.0045813, 0.0360768, 0.2659732, 1.2067492, 3.0899424, 3.5156229, 1.0]);
+    }
+    if !narrow.all() {
+        let inv_sqrt = R::ONE / x.max(R::of(3.75)).sqrt();
+        let t = R::of(3.75) * inv_sqrt.sqr();
+        large = inv_sqrt
+            * poly(
+                t,
+                [
+                    0.00392377,
+                    -0.01647633,
+                    0.02635537,
+                    -0.02057706,
+                    0.00916281,
+                    -0.00157565,
+                    0.00225319,
+                    0.01328592,
+                    0.39894228,
+                ],
+            );
+    }
     (R::select(narrow, small, large), (-x).only_where(narrow))
 }

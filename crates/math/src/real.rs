@@ -129,6 +129,12 @@ pub trait Real:
     fn exp(self) -> Self {
         elementary::exp(self)
     }
+    /// `e^self`, not above `e^88`, in two thirds of the time: to the digits that an argument which was rounded itself leaves to the
+    /// result, a relative error of about one rounding for each unit of `self`.
+    #[inline(always)]
+    fn exp_coarse(self) -> Self {
+        elementary::exp_coarse(self)
+    }
     /// Natural logarithm of a positive normal number.
     #[inline(always)]
     fn ln(self) -> Self {
@@ -373,6 +379,10 @@ impl Real for f64 {
     }
     #[inline]
     fn exp(self) -> f64 {
+        double::exp(self)
+    }
+    #[inline]
+    fn exp_coarse(self) -> f64 {
         double::exp(self)
     }
     #[inline]

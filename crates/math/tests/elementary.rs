@@ -41,6 +41,20 @@ fn single_precision_keeps_its_stated_errors() {
 }
 
 #[test]
+fn the_coarse_exponential_is_as_exact_as_its_argument() {
+    for x in steps(-87.0, 87.0, 200_000) {
+        let (got, want) = (f64::from(x.exp_coarse()), f64::exp(f64::from(x)));
+        let bound = 2e-7 + 1e-7 * f64::from(x.abs());
+        assert!((got / want - 1.0).abs() < bound, "{x}: {got} against {want}");
+    }
+    assert_eq!(0.0_f32.exp_coarse().to_bits(), 1.0_f32.to_bits());
+    for x in [-88.5, -1e4, f32::MIN, f32::NEG_INFINITY] {
+        assert_eq!(x.exp_coarse().to_bits(), 0, "{x}");
+    }
+    assert_eq!(0.3_f64.exp_coarse().to_bits(), Real::exp(0.3_f64).to_bits());
+}
+
+#[test]
 fn double_precision_is_double_precision() {
     let mut worst = [0.0f64; 5];
     for i in 0..200_000 {
@@ -75,8 +89,9 @@ fn lanes_equal_scalars_bit_for_bit() {
     for block in 0..2000 {
         let xs: [f32; 8] = core::array::from_fn(|i| ((block * 8 + i) as f32 - 8000.0) * 0.0007 + 0.0001);
         let x = Lanes(xs);
-        let cases: [(L, fn(f32) -> f32); 5] = [
+        let cases: [(L, fn(f32) -> f32); 6] = [
             (x.exp(), Real::exp),
+            (x.exp_coarse(), Real::exp_coarse),
             (x.abs().ln(), |v| Real::ln(v.abs())),
             (x.sin(), Real::sin),
             (x.cos(), Real::cos),

@@ -32,6 +32,14 @@ impl Carrier {
         }
     }
 
+    /// The space of red, green and blue, where these are carried.
+    pub(crate) fn space(self) -> Option<ColorSpace> {
+        match self {
+            Carrier::Wavelengths => None,
+            Carrier::Rgb(space) => Some(space),
+        }
+    }
+
     /// The wavelengths of a path, from a uniform number; for RGB always the same.
     #[inline]
     pub(crate) fn wavelengths(self, u: f32) -> Wavelengths {

@@ -6,12 +6,14 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::Instant;
 
 use rayon::prelude::*;
+use sparrow_scene::RouletteName;
 
 use crate::film::Film;
 use crate::integrator::{Block, CameraNumbers, CameraSample, Exposed, PathIntegrator, RayCounts};
 use crate::observe::{Observer, TileObserver};
 use crate::plan::RenderPlan;
 use crate::render::{Progress, RenderError, RenderOptions, RenderStats};
+use crate::roulette::{Learned, learn};
 use crate::sampler::Sampler;
 use crate::scene::Scene;
 
@@ -95,6 +97,7 @@ pub(crate) struct Run<'a> {
     samples: AtomicU64,
     samples_total: AtomicU64,
     rays_so_far: AtomicU64,
+    learned: Option<Learned>,
 }
 
 impl<'a> Run<'a> {
@@ -113,7 +116,11 @@ impl<'a> Run<'a> {
             .num_threads(options.threads)
             .build()
             .map_err(|e| RenderError::Threads { threads: options.threads, reason: e.to_string() })?;
+        // The first bounce is not played for.
+        let wanted = how.roulette == RouletteName::Efficiency && how.max_depth > 1 && how.max_smooth > 1;
+        let learned = wanted.then(|| pool.install(|| learn(scene, plan)));
         Ok(Run {
+            learned,
             scene,
             plan,
             how,
@@ -197,6 +204,7 @@ impl<'a> Run<'a> {
             let CameraSample { place, lambda, ray } =
                 CameraSample::new(self.scene, self.plan, pixel, sample, &numbers);
             parts.clear();
+            let roulette = tile.roulette(pixel);
             for way in 0..how.splits {
                 let mut sampler = start(self.plan.sample_of_way(sample, way));
                 let (mut lambda, mut record) = (lambda, T::Record::default());
@@ -208,6 +216,7 @@ impl<'a> Run<'a> {
                     &mut sampler,
                     &mut rays,
                     &mut record,
+                    roulette,
                 );
                 if how.splits == 1 {
                     tile.take(place, l, &lambda, &record);
@@ -233,7 +242,8 @@ impl<'a> Run<'a> {
         let film = exposure.film().tile(*origin, [TILE, TILE]);
         let observer = exposure.observer.tile(*origin, [TILE, TILE]);
         let [w, h] = film.size();
-        let mut tile = Exposed { plan: self.plan, how: self.how, film, observer };
+        let learned = self.learned.as_ref();
+        let mut tile = Exposed { plan: self.plan, how: self.how, learned, film, observer };
         let mut each =
             Samples { first: *origin, width: w, height: h, samples: samples.clone(), next: [0; 3] };
         let rays = if self.plan.one_by_one {

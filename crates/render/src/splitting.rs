@@ -9,6 +9,7 @@ use sparrow_spectra::Spectrum;
 
 use crate::integrator::{CameraNumbers, CameraSample, Finder, PathIntegrator, RayCounts, Record};
 use crate::plan::RenderPlan;
+use crate::roulette::Roulette;
 use crate::sampler::{Sampler, SamplerConfig, SamplerKind};
 use crate::scene::Scene;
 
@@ -140,7 +141,16 @@ fn camera_sample(
         let (mut lambda, mut rays) = (lambda, RayCounts::default());
         let mut sampler = sampler.start(pixel, sample + 2 * way);
         let mut first = OfFirstVertex::default();
-        let l = how.radiance_of_way(way, scene, ray, &mut lambda, &mut sampler, &mut rays, &mut first);
+        let l = how.radiance_of_way(
+            way,
+            scene,
+            ray,
+            &mut lambda,
+            &mut sampler,
+            &mut rays,
+            &mut first,
+            Roulette::THROUGHPUT,
+        );
         // The further way counts no ray of the first vertex: what the first way has more is what that costs.
         let n = (rays.scattered + rays.shadow) as f64;
         if way == 0 {

@@ -7,7 +7,7 @@ use std::sync::atomic::AtomicBool;
 
 use sparrow_render::film::Film;
 use sparrow_render::{RayCounts, RenderOptions, RenderPlan, compile, render, render_strategies};
-use sparrow_scene::{IntegratorName, SceneDesc};
+use sparrow_scene::{IntegratorName, RouletteName, SceneDesc};
 
 /// All of a film that a picture is made of.
 type Bits = Vec<([u64; 3], [u64; 3], u64, u64)>;
@@ -146,6 +146,15 @@ fn every_heuristic_agrees() {
             desc.integrator.splits = Some(splits);
             agree(desc, &format!("{mis}, {splits} ways on"));
         }
+    }
+}
+
+#[test]
+fn every_roulette_agrees() {
+    for roulette in [RouletteName::Throughput, RouletteName::Efficiency] {
+        let mut desc = everything(false);
+        desc.integrator.roulette = roulette;
+        agree(desc, &format!("{roulette:?}"));
     }
 }
 

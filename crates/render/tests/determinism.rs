@@ -4,6 +4,7 @@ mod common;
 
 use common::{describe, picture_of};
 use sparrow_render::film::Film;
+use sparrow_scene::RouletteName;
 
 const SCENE: &str = r#"
     Film "rgb" "integer xresolution" 50 "integer yresolution" 37
@@ -40,6 +41,21 @@ fn one_two_and_three_threads_give_the_same_bits() {
     for threads in [2, 3] {
         assert_eq!(bits(&one), bits(&picture_of(describe(SCENE), threads).0), "{threads} threads");
     }
+}
+
+#[test]
+fn what_a_pilot_learns_depends_on_neither_threads_nor_crops() {
+    let mut desc = describe(SCENE);
+    desc.integrator.roulette = RouletteName::Efficiency;
+    let mut cropped = desc.clone();
+    cropped.film.pixel_bounds = [13, 41, 7, 30];
+    let (one, three) = (picture_of(desc.clone(), 1).0, picture_of(desc, 3).0);
+    assert_eq!(bits(&one), bits(&three));
+    assert_ne!(bits(&one), bits(&picture_of(describe(SCENE), 1).0), "nothing was learned");
+    let part = picture_of(cropped, 2).0;
+    let same =
+        |x, y| part.pixel(x, y).rgb.map(f64::to_bits) == one.pixel(x + 13, y + 7).rgb.map(f64::to_bits);
+    assert!((0..part.height()).all(|y| (0..part.width()).all(|x| same(x, y))));
 }
 
 #[test]

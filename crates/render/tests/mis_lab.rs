@@ -17,7 +17,7 @@ use std::path::PathBuf;
 use serde_json::Value;
 use sparrow_math::{Vec3, vec3};
 use sparrow_mis::Mis;
-use sparrow_render::{RayCounts, RenderPlan, compile};
+use sparrow_render::{RayCounts, RenderPlan, Roulette, compile};
 use sparrow_spectra::Wavelengths;
 
 fn scenes() -> PathBuf {
@@ -157,7 +157,15 @@ fn the_lamps_have_the_power_of_the_records() {
         assert!((f64::from(depth) - r).abs() < 1e-5, "lamp {i}: its radius is {depth}, not {r}");
         let mut lambda = Wavelengths::with_pdf([550.0; 4], [1.0; 4]);
         let (mut sampler, mut rays) = (plan.sampler.start([0, 0], 0), RayCounts::default());
-        let l = plan.integrator.radiance(&scene, ray, &mut lambda, &mut sampler, &mut rays, &mut ());
+        let l = plan.integrator.radiance(
+            &scene,
+            ray,
+            &mut lambda,
+            &mut sampler,
+            &mut rays,
+            &mut (),
+            Roulette::THROUGHPUT,
+        );
         radiance.push(f64::from(l.0[0]) / le);
     }
     assert!(radiance.iter().all(|l| (l / radiance[0] - 1.0).abs() < 1e-5), "{radiance:?}");

@@ -3,6 +3,8 @@
 /// Position, normal, u and v at a corner of a grid.
 pub(super) type Vertex<'a> = Box<dyn Fn(u32, u32) -> [f64; 8] + 'a>;
 
+const PROPERTIES: [&str; 8] = ["x", "y", "z", "nx", "ny", "nz", "u", "v"];
+
 /// A grid of cells of two triangles each.
 pub(super) struct Grid<'a> {
     /// Cells along u and v.
@@ -15,14 +17,28 @@ pub(super) fn ply(nu: u32, nv: u32, vertex: impl Fn(u32, u32) -> [f64; 8]) -> St
     ply_of(&[Grid { cells: [nu, nv], vertex: Box::new(vertex) }])
 }
 
+/// An ASCII PLY file of one grid, of positions and normals.
+pub(super) fn ply_without_uv(cells: [u32; 2], vertex: impl Fn(u32, u32) -> [f64; 6]) -> String {
+    let vertex = |i, j| {
+        let [x, y, z, nx, ny, nz] = vertex(i, j);
+        [x, y, z, nx, ny, nz, 0.0, 0.0]
+    };
+    text(&[Grid { cells, vertex: Box::new(vertex) }], &PROPERTIES[..6])
+}
+
 /// An ASCII PLY file of several grids.
 pub(super) fn ply_of(grids: &[Grid<'_>]) -> String {
+    text(grids, &PROPERTIES)
+}
+
+/// The first properties of each vertex, and the faces.
+fn text(grids: &[Grid<'_>], properties: &[&str]) -> String {
     let sum = |f: fn([u32; 2]) -> u32| grids.iter().map(|g| f(g.cells)).sum::<u32>();
     let mut text = format!(
         "ply\nformat ascii 1.0\ncomment written by cargo run -p xtask -- assets\nelement vertex {}\n",
         sum(|[nu, nv]| (nu + 1) * (nv + 1))
     );
-    for name in ["x", "y", "z", "nx", "ny", "nz", "u", "v"] {
+    for name in properties {
         text += &format!("property float {name}\n");
     }
     text += &format!(
@@ -31,7 +47,7 @@ pub(super) fn ply_of(grids: &[Grid<'_>]) -> String {
     );
     for Grid { cells: [nu, nv], vertex } in grids {
         for (i, j) in (0..=*nv).flat_map(|j| (0..=*nu).map(move |i| (i, j))) {
-            text += &vertex(i, j).map(short).join(" ");
+            text += &vertex(i, j).map(short)[..properties.len()].join(" ");
             text.push('\n');
         }
     }

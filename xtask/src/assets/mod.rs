@@ -2,6 +2,7 @@
 
 mod cloth;
 mod grid;
+mod head;
 mod helix;
 mod herbert;
 mod horse;
@@ -26,7 +27,8 @@ fn texts() -> Vec<(String, String)> {
         ("lecture/spool.inc", spool::curve()),
     ];
     let market = market::all().into_iter().map(|(name, text)| (format!("meshes/{name}.ply"), text));
-    single.map(|(name, text)| (name.to_owned(), text)).into_iter().chain(market).collect()
+    let head = head::all().map(|(name, text)| (format!("meshes/{name}.ply"), text));
+    single.map(|(name, text)| (name.to_owned(), text)).into_iter().chain(market).chain(head).collect()
 }
 
 /// Writes `textures/*.png`, `meshes/*.ply` and `lecture/spool.inc` into the folder of the scenes.

@@ -60,6 +60,21 @@ fn what_grows_is_rendered() {
 }
 
 #[test]
+fn strands_stay_outside_of_the_body() {
+    let s = scratch();
+    let lowest = |words: &str| {
+        s.run(&format!("groom square.ply -o a.hair --count 50 --length 2 --gravity 0,-30,0 --quiet {words}"))
+            .ok();
+        // Nothing but points follows the header of 128 bytes: x y z each.
+        let bytes = fs::read(s.path("a.hair")).unwrap();
+        let numbers = bytes[128..].chunks_exact(4).map(|b| f32::from_le_bytes(b.try_into().unwrap()));
+        numbers.skip(1).step_by(3).fold(f32::INFINITY, f32::min)
+    };
+    assert!(lowest("") < -1.0, "without a body strands fall through");
+    assert!(lowest("--body square.ply --clearance 0.05") >= 0.0);
+}
+
+#[test]
 fn the_same_words_give_the_same_bytes() {
     let s = scratch();
     let grown = |out: &str, seed: u32| {
@@ -82,6 +97,9 @@ fn what_cannot_be_grown_is_told() {
         ("bare.ply", "bare.ply"),
         ("line.ply", "line.ply: the faces have no area"),
         ("broken.ply", "broken.ply"),
+        ("square.ply --body missing.ply", "missing.ply: cannot be read"),
+        ("square.ply --body line.ply --body broken.ply", "broken.ply"),
+        ("square.ply --clearance -1", "the clearance is -1; give a number not below 0"),
         ("square.ply --length 0", "the length is 0; give a number above 0"),
         ("square.ply --clump 2", "the clump is 2; give a number from 0 to 1"),
         ("square.ply --density 0.1", "raise the density"),
@@ -128,5 +146,5 @@ fn strands_of_our_scenes_are_current() {
         grown.push(name.to_owned());
     }
     grown.sort();
-    assert_eq!(grown, ["bundle.hair", "herbert.hair", "horse.hair", "tress.hair"]);
+    assert_eq!(grown, ["bundle.hair", "head.hair", "herbert.hair", "horse.hair", "tress.hair"]);
 }

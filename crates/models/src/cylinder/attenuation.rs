@@ -53,7 +53,7 @@ impl<R: Real> Inside<R> {
         let f = self.fresnel;
         let t = sigma_a.map(
             #[inline(always)]
-            |sigma| (-sigma * self.length).exp(),
+            |sigma| (-sigma * self.length).exp_coarse(),
         );
         let tt = t * (R::ONE - f).sqr();
         let trt = tt * t * f;

@@ -20,6 +20,26 @@ pub fn exit_azimuth<R: Real>(p: u32, gamma_o: R, gamma_t: R) -> R {
     R::of(2.0 * f64::from(p)) * gamma_t - R::of(2.0) * gamma_o + R::of(f64::from(p % 2) * PI)
 }
 
+/// A direction around the fibre as a complex number `e^(i phi)`, in any scale: angles are added without finding them.
+pub type Turn<R> = [R; 2];
+
+/// Two turns one after the other.
+#[inline(always)]
+pub fn joined<R: Real>([a, b]: Turn<R>, [c, d]: Turn<R>) -> Turn<R> {
+    [a * c - b * d, a * d + b * c]
+}
+
+/// From where R leaves to where the light came from, `e^(2 i gamma_o)`; and from where one lobe leaves to where that before it
+/// did, `e^(-i (2 gamma_t + pi))`. Sines and cosines of both angles.
+#[inline(always)]
+pub fn turns_back<R: Real>([sin_o, cos_o]: [R; 2], [sin_t, cos_t]: [R; 2]) -> [Turn<R>; 2] {
+    let two = R::of(2.0);
+    [
+        [(cos_o - sin_o) * (cos_o + sin_o), two * sin_o * cos_o],
+        [(sin_t - cos_t) * (sin_t + cos_t), two * sin_t * cos_t],
+    ]
+}
+
 /// A density around the fibre.
 pub trait Azimuthal<R> {
     /// The mean of the density, in 1/rad, over an interval of that width in rad around `x` in [-pi, pi].
@@ -49,7 +69,7 @@ impl<R: Real> TrimmedLogistic<R> {
     /// Density in 1/rad at `x` in [-pi, pi].
     #[inline(always)]
     pub fn value(&self, x: R) -> R {
-        let e = (-x.abs() * self.inv_s).exp();
+        let e = (-x.abs() * self.inv_s).exp_coarse();
         self.scale * e / (R::ONE + e).sqr()
     }
     /// Draws `x`.
@@ -62,7 +82,7 @@ impl<R: Real> TrimmedLogistic<R> {
     /// `P(X > |x|)` before it was trimmed.
     #[inline(always)]
     fn tail(&self, x: R) -> R {
-        let e = (-x.abs() * self.inv_s).exp();
+        let e = (-x.abs() * self.inv_s).exp_coarse();
         e / (R::ONE + e)
     }
     /// Share of the interval from `a` to `b >= a`, as far as it lies within [-pi, pi].
@@ -201,6 +221,19 @@ mod tests {
         let n = 20_000;
         let at = |k: i32| d.mean(wrapped(x + ((f64::from(k) + 0.5) / f64::from(n) - 0.5) * width), 0.0);
         (0..n).map(at).sum::<f64>() / f64::from(n)
+    }
+
+    #[test]
+    fn turns_lead_from_where_lobes_leave() {
+        for (gamma_o, gamma_t) in [(0.4, 0.25), (-1.5, -0.7), (1.2, 0.6), (0.0, 0.0)] {
+            let [(s_o, c_o), (s_t, c_t)] = [gamma_o, gamma_t].map(|x: f64| Real::sin_cos(x));
+            let [mut back, passage] = turns_back([s_o, c_o], [s_t, c_t]);
+            for p in 0..3 {
+                let apart = wrapped(exit_azimuth(p, gamma_o, gamma_t) + Real::atan2(back[1], back[0]));
+                assert!(apart.abs() < 1e-14, "lobe {p} of {gamma_o} {gamma_t}: {apart}");
+                back = joined(back, passage);
+            }
+        }
     }
 
     #[test]

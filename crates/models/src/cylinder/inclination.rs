@@ -39,6 +39,11 @@ impl<R: Real> FibreDir<R> {
         let ([c, s], [d, t]) = (self.across, i.across);
         [c * d + s * t, c * t - s * d]
     }
+    /// Cosine and sine of the azimuth of `i` from `o`, times the cosines of both inclinations.
+    #[inline(always)]
+    pub fn scaled_turn(o: LocalDir<R>, i: LocalDir<R>) -> [R; 2] {
+        [o.y() * i.y() + o.z() * i.z(), o.y() * i.z() - o.z() * i.y()]
+    }
     /// The azimuth of `i` from `self`, in (-pi, pi].
     #[inline(always)]
     pub fn azimuth_to(&self, i: &Self) -> R {
@@ -48,9 +53,15 @@ impl<R: Real> FibreDir<R> {
     /// The direction of the inclination `sin` at the azimuth `phi` from `self`.
     #[inline(always)]
     pub fn turned(&self, sin: R, phi: R) -> LocalDir<R> {
+        let (t, d) = phi.sin_cos();
+        self.turned_by(sin, [d, t])
+    }
+    /// The same, from cosine and sine of the azimuth.
+    #[inline(always)]
+    pub fn turned_by(&self, sin: R, [d, t]: [R; 2]) -> LocalDir<R> {
         let sin = sin.clamp(-R::ONE, R::ONE);
         let cos = ((R::ONE - sin) * (R::ONE + sin)).safe_sqrt();
-        let ([c, s], (t, d)) = (self.across, phi.sin_cos());
+        let [c, s] = self.across;
         LocalDir::new(vec3(sin, cos * (c * d - s * t), cos * (s * d + c * t)))
     }
 }

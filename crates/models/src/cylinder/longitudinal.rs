@@ -42,7 +42,7 @@ impl<R: Real> Longitudinal<R> {
     pub fn value(&self, [sin_i, cos_i]: [R; 2], [sin_o, cos_o]: [R; 2]) -> R {
         let apart = R::of(0.5) * ((cos_i - cos_o).sqr() + (sin_i + sin_o).sqr());
         let (m, k) = (cos_i * cos_o * self.inv_v).i0e_parts();
-        m * (k - apart * self.inv_v).exp() * self.scale
+        m * (k - apart * self.inv_v).exp_coarse() * self.scale
     }
     /// Draws `sin theta_i` with density `M cos theta_i`. [dEon2013]
     #[inline(always)]

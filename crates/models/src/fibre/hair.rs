@@ -16,7 +16,7 @@ use sparrow_spectra::Spectrum;
 
 use crate::bcsdf::weighed;
 use crate::cylinder::attenuation::Inside;
-use crate::cylinder::azimuthal::{TrimmedLogistic, exit_azimuth, wrapped};
+use crate::cylinder::azimuthal::{TrimmedLogistic, Turn, joined, turns_back};
 use crate::cylinder::far_field::{FarField, SEGMENTS};
 use crate::cylinder::longitudinal::{Longitudinal, tilted};
 use crate::cylinder::roughness::{logistic_scale, variance};
@@ -25,6 +25,9 @@ use crate::{About, Bcsdf, BsdfSample, Lack, Model, N_LOBES, ParamBlock, ParamInf
 
 /// The least roughness: below it single precision runs out of digits.
 const SMOOTHEST: f64 = 0.02;
+
+/// Added to `M` and `N`, far below what a sum of lobes can hold: products of their tails would be denormal numbers, which are slow.
+const FAINT: f64 = 1e-18;
 
 /// A hair.
 #[derive(Clone, Copy, Debug)]
@@ -106,13 +109,13 @@ fn doubled<R: Real>([sin, cos]: [R; 2]) -> [R; 2] {
 /// The fibre as one viewer sees it.
 struct Seen<R> {
     o: FibreDir<R>,
+    /// From where R leaves to where the light came from, and from each lobe to that before it.
+    back: [Turn<R>; 2],
     /// `A_p`
     shares: [Spectrum<R>; N_LOBES],
     /// Probabilities of the lobes, not normalised, and their sum.
     chances: [R; N_LOBES],
     sum: R,
-    /// `Phi_p` of R, TT, TRT.
-    exits: [R; 3],
 }
 
 impl<R: Real> Hair<R> {
@@ -122,15 +125,11 @@ impl<R: Real> Hair<R> {
         let inside = Inside::new([o.sin, o.cos], self.h, self.eta);
         let shares =
             if self.far { self.far_field(&o).shares(SEGMENTS) } else { inside.attenuation(self.sigma_a) };
-        let (gamma_o, gamma_t) = (self.h.asin(), inside.angle());
-        let exits = [
-            exit_azimuth(0, gamma_o, gamma_t),
-            exit_azimuth(1, gamma_o, gamma_t),
-            exit_azimuth(2, gamma_o, gamma_t),
-        ];
+        let gamma_o = [self.h, ((R::ONE - self.h) * (R::ONE + self.h)).safe_sqrt()];
+        let back = turns_back(gamma_o, inside.gamma_t);
         let chances = [shares[0].average(), shares[1].average(), shares[2].average(), shares[3].average()];
         let sum = ((chances[0] + chances[1]) + (chances[2] + chances[3])).max(R::of(1e-30));
-        Seen { o, shares, chances, sum, exits }
+        Seen { o, back, shares, chances, sum }
     }
 
     #[inline(always)]
@@ -144,43 +143,50 @@ impl<R: Real> Hair<R> {
         tilted([o.sin, o.cos], self.tilts[p])
     }
 
-    /// `M_p N_p` of R, TT or TRT.
+    /// `M_p` of every lobe.
     #[inline(always)]
-    fn shape(&self, seen: &Seen<R>, p: usize, theta_i: [R; 2], phi: R) -> R {
-        let away = wrapped(phi - seen.exits[p]);
-        self.longitudinal[p].value(theta_i, self.tilted(&seen.o, p)) * self.azimuthal.value(away)
-    }
-
-    /// `M_p N_p` of every lobe.
-    #[inline(always)]
-    fn shapes(&self, seen: &Seen<R>, wi: LocalDir<R>) -> [R; N_LOBES] {
-        let (o, i) = (&seen.o, FibreDir::new(wi));
-        let (theta_i, phi) = ([i.sin, i.cos], o.azimuth_to(&i));
-        let rest = self.longitudinal[2].value(theta_i, [o.sin, o.cos]) * R::of(0.5 / PI);
-        [
-            self.shape(seen, 0, theta_i, phi),
-            self.shape(seen, 1, theta_i, phi),
-            self.shape(seen, 2, theta_i, phi),
-            rest,
-        ]
-    }
-}
-
-impl<R: Real> Hair<R> {
-    /// `q` of every lobe of the far field.
-    #[inline(always)]
-    fn far_lobes(&self, o: &FibreDir<R>, wi: LocalDir<R>) -> [Spectrum<R>; N_LOBES] {
+    fn along(&self, o: &FibreDir<R>, wi: LocalDir<R>) -> [R; N_LOBES] {
         let i = FibreDir::new(wi);
-        let d = [self.azimuthal; 3];
-        let [r, tt, trt, rest] = self.far_field(o).around(o.azimuth_to(&i), &d, SEGMENTS).n;
-        let theta = [i.sin, i.cos];
-        let m = [
-            self.longitudinal[0].value(theta, self.tilted(o, 0)),
-            self.longitudinal[1].value(theta, self.tilted(o, 1)),
-            self.longitudinal[2].value(theta, self.tilted(o, 2)),
-            self.longitudinal[2].value(theta, [o.sin, o.cos]),
-        ];
-        [r * m[0], tt * m[1], trt * m[2], rest * m[3]]
+        let theta_i = [i.sin, i.cos];
+        let [m0, m1, m2] = &self.longitudinal;
+        [
+            m0.value(theta_i, self.tilted(o, 0)),
+            m1.value(theta_i, self.tilted(o, 1)),
+            m2.value(theta_i, self.tilted(o, 2)),
+            m2.value(theta_i, [o.sin, o.cos]),
+        ]
+        .map(
+            #[inline(always)]
+            |m| m + R::of(FAINT),
+        )
+    }
+
+    /// `N` at the turn from where a lobe leaves.
+    #[inline(always)]
+    fn around(&self, [cos, sin]: Turn<R>) -> R {
+        self.azimuthal.value(sin.atan2(cos)) + R::of(FAINT)
+    }
+
+    /// `q` of every lobe.
+    #[inline(always)]
+    fn q(&self, seen: &Seen<R>, wo: LocalDir<R>, wi: LocalDir<R>) -> [Spectrum<R>; N_LOBES] {
+        let m = self.along(&seen.o, wi);
+        if self.far {
+            let phi = seen.o.azimuth_to(&FibreDir::new(wi));
+            let [r, tt, trt, rest] = self.far_field(&seen.o).around(phi, &[self.azimuthal; 3], SEGMENTS).n;
+            return [r * m[0], tt * m[1], trt * m[2], rest * m[3]];
+        }
+        let [back, passage] = seen.back;
+        let r = joined(FibreDir::scaled_turn(wo, wi), back);
+        let tt = joined(r, passage);
+        let trt = joined(tt, passage);
+        let a = &seen.shares;
+        [
+            a[0] * (m[0] * self.around(r)),
+            a[1] * (m[1] * self.around(tt)),
+            a[2] * (m[2] * self.around(trt)),
+            a[3] * (m[3] * R::of(0.5 / PI)),
+        ]
     }
 }
 
@@ -188,27 +194,15 @@ impl<R: Real> Bcsdf<R> for Hair<R> {
     #[inline(always)]
     fn f_cos_pdf(&self, wo: LocalDir<R>, wi: LocalDir<R>) -> (Spectrum<R>, R) {
         let seen = self.seen(wo);
-        if self.far {
-            let [r, tt, trt, rest] = self.far_lobes(&seen.o, wi);
-            let q = (r + tt) + (trt + rest);
-            return (q, q.average() / seen.sum);
-        }
-        let [r, tt, trt, rest] = self.shapes(&seen, wi);
-        let (a, c) = (&seen.shares, &seen.chances);
-        let q = (a[0] * r + a[1] * tt) + (a[2] * trt + a[3] * rest);
-        let pdf = ((c[0] * r + c[1] * tt) + (c[2] * trt + c[3] * rest)) / seen.sum;
-        (q, pdf)
+        let [r, tt, trt, rest] = self.q(&seen, wo, wi);
+        let q = (r + tt) + (trt + rest);
+        // Lobes are drawn by their means over the wavelengths.
+        (q, q.average() / seen.sum)
     }
 
     #[inline(always)]
     fn lobes(&self, wo: LocalDir<R>, wi: LocalDir<R>) -> [Spectrum<R>; N_LOBES] {
-        let seen = self.seen(wo);
-        if self.far {
-            return self.far_lobes(&seen.o, wi);
-        }
-        let [r, tt, trt, rest] = self.shapes(&seen, wi);
-        let a = &seen.shares;
-        [a[0] * r, a[1] * tt, a[2] * trt, a[3] * rest]
+        self.q(&self.seen(wo), wo, wi)
     }
 
     #[inline(always)]
@@ -220,20 +214,25 @@ impl<R: Real> Bcsdf<R> for Hair<R> {
         let theta_o = [lobe.pick([r[0], tt[0], trt[0], o.sin]), lobe.pick([r[1], tt[1], trt[1], o.cos])];
         let [m0, m1, m2] = &self.longitudinal;
         let m = Longitudinal::select(lobe.from[1], m2, &Longitudinal::select(lobe.from[0], m1, m0));
-        let (around, left) = if self.far {
+        let (back, around, left) = if self.far {
             let [exit, left] = self.far_field(o).draw(
                 #[inline(always)]
                 |v| lobe.pick(v),
                 lobe.left,
                 SEGMENTS,
             );
-            (exit, left)
+            ([R::ONE, R::ZERO], exit, left)
         } else {
-            let [r, tt, trt] = seen.exits;
-            (lobe.pick([r, tt, trt, R::ZERO]), lobe.left)
+            let [r, passage] = seen.back;
+            let tt = joined(r, passage);
+            let trt = joined(tt, passage);
+            let back = [lobe.pick([r[0], tt[0], trt[0], R::ONE]), lobe.pick([r[1], tt[1], trt[1], R::ZERO])];
+            (back, R::ZERO, lobe.left)
         };
         let away = R::select(lobe.from[2], R::of(2.0 * PI) * left, self.azimuthal.sample(left));
+        let (sin, cos) = (around + away).sin_cos();
+        let turn = joined([cos, sin], [back[0], -back[1]]);
 
-        weighed(self, wo, o.turned(m.sample(theta_o, u.dir), around + away))
+        weighed(self, wo, o.turned_by(m.sample(theta_o, u.dir), turn))
     }
 }

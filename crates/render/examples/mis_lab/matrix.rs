@@ -5,7 +5,7 @@ use std::path::Path;
 
 use sparrow_math::Real;
 use sparrow_mis::{Heuristic, Mis, PairMoments};
-use sparrow_render::{Finder, RayCounts, Record, RenderPlan, compile};
+use sparrow_render::{Finder, RayCounts, Record, RenderPlan, Roulette, compile};
 use sparrow_spectra::{Spectrum, Wavelengths};
 use sparrow_stats::Mean;
 
@@ -70,7 +70,15 @@ pub fn measure(scenes: &Path, radius: &str, alpha: f64, mis: Mis, n: u32) -> Res
         let mut lambda = Wavelengths::with_pdf([550.0; 4], [1.0; 4]);
         let mut sampler = plan.sampler.start([0, 0], sample);
         let (mut rays, mut control) = (RayCounts::default(), Control::default());
-        let l = plan.integrator.radiance(&scene, ray, &mut lambda, &mut sampler, &mut rays, &mut control);
+        let l = plan.integrator.radiance(
+            &scene,
+            ray,
+            &mut lambda,
+            &mut sampler,
+            &mut rays,
+            &mut control,
+            Roulette::THROUGHPUT,
+        );
         (f64::from(l.0[0]), control.0)
     };
     let mut moments = PairMoments::<1>::default();

@@ -3,11 +3,12 @@
 use sparrow_geometry::{Ray, SurfacePoint};
 use sparrow_math::Vec3;
 use sparrow_mis::Mis;
-use sparrow_scene::{IntegratorDesc, IntegratorName};
+use sparrow_scene::{IntegratorDesc, IntegratorName, RouletteName};
 use sparrow_spectra::{Spectrum, Wavelengths};
 
 use super::{Finder, RayCounts, Record};
 use crate::light::{LightSample, LitPoint};
+use crate::roulette::Roulette;
 use crate::sampler::PixelSampler;
 use crate::scatter::{Density, Scatter};
 use crate::scene::{LastVertex, Scene};
@@ -27,14 +28,6 @@ pub(super) fn scatter_dimension(depth: u32) -> u32 {
     light_dimension(depth) + 3
 }
 
-/// Probability with which a path goes on that carries `carried` of what it began with.
-///
-/// Paths are ended only when they have lost more than half: ending them in proportion to what they lost, as pbrt-v4
-/// does, costs a third more error on diffuse scenes for the same time (`docs/performance.md`).
-pub(super) fn roulette(carried: f32) -> f32 {
-    if carried < 1.0 { (2.0 * carried).min(0.95) } else { 1.0 }
-}
-
 /// One path at a time. [Kajiya1986], [Veach1997, ch. 9, 10]
 #[derive(Clone, Copy, Debug)]
 pub struct PathIntegrator {
@@ -46,6 +39,8 @@ pub struct PathIntegrator {
     pub mis: Mis,
     /// Narrow lobes are widened after the first one that is no delta.
     pub regularize: bool,
+    /// What Russian roulette goes by.
+    pub roulette: RouletteName,
     /// Ways on from the first vertex of each camera sample.
     pub splits: u32,
 }
@@ -59,6 +54,7 @@ impl PathIntegrator {
             max_smooth: if direct { 1 } else { u32::MAX },
             mis: desc.mis,
             regularize: desc.regularize,
+            roulette: desc.roulette,
             splits: 1,
         }
     }
@@ -70,6 +66,7 @@ impl PathIntegrator {
     }
 
     /// Radiance that arrives along `ray`, at the path's wavelengths; `record` is told of each light that is found.
+    #[allow(clippy::too_many_arguments, reason = "what a path needs and what it leaves behind")]
     pub fn radiance(
         &self,
         scene: &Scene,
@@ -78,8 +75,10 @@ impl PathIntegrator {
         sampler: &mut PixelSampler<'_>,
         rays: &mut RayCounts,
         record: &mut impl Record,
+        roulette: Roulette<'_>,
     ) -> Spectrum<f32> {
-        PathIntegrator { splits: 1, ..*self }.radiance_of_way(0, scene, ray, lambda, sampler, rays, record)
+        let one = PathIntegrator { splits: 1, ..*self };
+        one.radiance_of_way(0, scene, ray, lambda, sampler, rays, record, roulette)
     }
 
     /// The part of one way on of [`splits`](Self::splits); the light of the first vertex belongs to the first way.
@@ -93,6 +92,7 @@ impl PathIntegrator {
         sampler: &mut PixelSampler<'_>,
         rays: &mut RayCounts,
         record: &mut impl Record,
+        roulette: Roulette<'_>,
     ) -> Spectrum<f32> {
         let (mut l, mut beta) = (Spectrum::ZERO, Spectrum::ONE);
         let mut last: Option<LastVertex> = None;
@@ -145,14 +145,15 @@ impl PathIntegrator {
             ray = point.spawn(s.wi);
             depth += 1;
 
-            // Roulette, on what the path carries apart from the squeeze of refraction and the share of its way.
-            let survival = roulette((beta * eta_scale).max_value());
+            // Roulette.
+            let survival = roulette.survival(point.p, beta, eta_scale);
             if survival < 1.0 && depth > 1 {
                 if sampler.get_1d() >= survival {
                     break;
                 }
                 beta *= 1.0 / survival;
             }
+            record.goes_on(point.p, beta);
         }
         l
     }

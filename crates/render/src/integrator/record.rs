@@ -1,5 +1,6 @@
 //! Who looks on while a path finds light: [`Record`].
 
+use sparrow_math::Vec3;
 use sparrow_spectra::Spectrum;
 
 /// How a path found light.
@@ -17,6 +18,11 @@ pub enum Finder {
 pub trait Record {
     /// The path found light: what it adds to the radiance before its MIS weight, and that weight.
     fn found(&mut self, by: Finder, light: Spectrum<f32>, weight: f32);
+    /// The path goes on from a vertex at `p`, and what it will find counts `beta` times.
+    #[inline(always)]
+    fn goes_on(&mut self, p: Vec3<f32>, beta: Spectrum<f32>) {
+        let _ = (p, beta);
+    }
 }
 
 impl Record for () {

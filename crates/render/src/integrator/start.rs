@@ -8,6 +8,7 @@ use super::PathIntegrator;
 use crate::film::FilmTile;
 use crate::observe::{Sample, TileObserver};
 use crate::plan::RenderPlan;
+use crate::roulette::{Learned, Roulette};
 use crate::sampler::PixelSampler;
 use crate::scene::Scene;
 
@@ -96,11 +97,18 @@ pub(super) fn film_point<R: Real>(plan: &RenderPlan, pixel: [R; 2], u: [R; 2]) -
 pub(crate) struct Exposed<'a, T> {
     pub(crate) plan: &'a RenderPlan,
     pub(crate) how: PathIntegrator,
+    pub(crate) learned: Option<&'a Learned>,
     pub(crate) film: FilmTile,
     pub(crate) observer: T,
 }
 
-impl<T: TileObserver> Exposed<'_, T> {
+impl<'a, T: TileObserver> Exposed<'a, T> {
+    /// How paths of a pixel are ended.
+    #[inline]
+    pub(crate) fn roulette(&self, pixel: [u32; 2]) -> Roulette<'a> {
+        Roulette::of_pixel(self.learned, self.plan.in_full_picture(pixel))
+    }
+
     /// Takes the radiance `l` that a path found.
     #[inline]
     pub(crate) fn take(

@@ -4,7 +4,7 @@ use sparrow_models::batch::ParamColumns;
 use sparrow_models::{MAX_CHOICES, MAX_REALS, MAX_SPECTRA};
 use sparrow_spectra::{N_LAMBDA, Wavelengths};
 
-use super::{Material, RealSource};
+use super::{Material, RealSource, SpectrumSource, k_of_reflectance};
 use crate::integrator::{Column, pad};
 use crate::texture::{TextureContext, Textures};
 
@@ -14,6 +14,42 @@ pub(crate) struct Points<'a> {
     pub(crate) lambda: &'a [Wavelengths],
     /// For materials with textures.
     pub(crate) contexts: &'a [TextureContext],
+}
+
+impl RealSource {
+    /// Its values at the first `n` points.
+    fn fill(&self, textures: &Textures, points: &Points<'_>, n: usize, column: &mut Column) {
+        match self {
+            RealSource::Constant(v) => column[..n].fill(*v),
+            RealSource::AtHero(table) => {
+                column.iter_mut().zip(&points.lambda[..n]).for_each(|(slot, w)| *slot = table.at(w)[0]);
+            }
+            RealSource::Texture(id) => textures.float_many(*id, points.contexts, column),
+            RealSource::SqrtOfTexture(id) => {
+                textures.float_many(*id, points.contexts, column);
+                column[..n].iter_mut().for_each(|v| *v = v.max(0.0).sqrt());
+            }
+        }
+    }
+}
+
+impl SpectrumSource {
+    /// Its values at the first `n` points.
+    fn fill(&self, textures: &Textures, points: &Points<'_>, n: usize, columns: &mut [Column; N_LAMBDA]) {
+        let (contexts, lambda) = (points.contexts, points.lambda);
+        match self {
+            SpectrumSource::Value(s) => {
+                for (k, w) in lambda[..n].iter().enumerate() {
+                    columns.iter_mut().zip(s.at(w).0).for_each(|(column, v)| column[k] = v);
+                }
+            }
+            SpectrumSource::Texture(id) => textures.value_many(*id, contexts, lambda, columns),
+            SpectrumSource::KOfTexture(id) => {
+                textures.value_many(*id, contexts, lambda, columns);
+                columns.iter_mut().flat_map(|c| &mut c[..n]).for_each(|v| *v = k_of_reflectance(*v));
+            }
+        }
+    }
 }
 
 /// One column for each parameter; one number where it is the same at all points.
@@ -33,8 +69,6 @@ impl MaterialColumns {
     /// Evaluates the parameters of a material at all points.
     pub(crate) fn bind(&mut self, material: &Material, textures: &Textures, points: &Points<'_>) {
         let n = points.lambda.len();
-        let none = TextureContext::default();
-        let context = |k: usize| points.contexts.get(k).unwrap_or(&none);
         self.choices = material.choices;
         let same = |w: &[Wavelengths]| w[0].lambda.map(f32::to_bits) == w[1].lambda.map(f32::to_bits);
         self.n_lambda = if points.lambda.windows(2).all(same) { 1 } else { n };
@@ -42,18 +76,13 @@ impl MaterialColumns {
         self.n_spectra = [0; MAX_SPECTRA];
         for ((column, count), source) in self.reals.iter_mut().zip(&mut self.n_reals).zip(&material.reals) {
             *count = if matches!(source, RealSource::Constant(_)) { 1 } else { n };
-            for k in 0..*count {
-                column[k] = source.at(textures, context(k), &points.lambda[k]);
-            }
+            source.fill(textures, points, *count, column);
             pad(column, *count);
         }
         let columns = self.spectra.iter_mut().zip(&mut self.n_spectra);
         for ((columns, count), source) in columns.zip(&material.spectra) {
             *count = if source.is_constant() { 1 } else { n };
-            for k in 0..*count {
-                let s = source.at(textures, context(k), &points.lambda[k]);
-                columns.iter_mut().zip(s.0).for_each(|(column, v)| column[k] = v);
-            }
+            source.fill(textures, points, *count, columns);
             columns.iter_mut().for_each(|column| pad(column, *count));
         }
     }

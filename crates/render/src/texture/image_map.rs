@@ -1,101 +1,20 @@
-//! Images as textures: storage, pyramid, edges and filters.
+//! Images as textures: how they are looked up.
 
-use std::collections::HashMap;
-use std::path::PathBuf;
 use std::sync::Arc;
 
-use sparrow_image::{Encoding, Image};
-use sparrow_math::{Real, warp};
-use sparrow_scene::{ImageMap, Mapping, TextureEncoding, TextureFilter, WrapMode};
+use sparrow_image::Image;
+use sparrow_math::{InLanes, Real, in_lanes, warp};
+use sparrow_scene::{ImageMap, Mapping, TextureFilter, WrapMode};
 
 use super::TextureContext;
 use super::mapping::TexCoord;
-
-/// An image file in memory, with the coarser levels that filters need.
-#[derive(Debug)]
-pub(crate) struct LoadedImage {
-    base: Image,
-    /// Levels of half the size each, linear RGB; empty where no filter asks for them.
-    levels: Vec<Level>,
-}
-
-#[derive(Debug)]
-struct Level {
-    width: usize,
-    height: usize,
-    rgb: Vec<[f32; 3]>,
-}
-
-impl LoadedImage {
-    /// Memory, in bytes.
-    pub(crate) fn bytes(&self) -> usize {
-        self.base.bytes() + self.levels.iter().map(|l| l.rgb.len() * 12).sum::<usize>()
-    }
-
-    fn size(&self, level: usize) -> (usize, usize) {
-        match level.checked_sub(1).and_then(|l| self.levels.get(l)) {
-            Some(l) => (l.width, l.height),
-            None => (self.base.width, self.base.height),
-        }
-    }
-
-    fn texel(&self, level: usize, x: i64, y: i64, wrap: WrapMode) -> [f32; 3] {
-        let (w, h) = self.size(level);
-        let Some((x, y)) = wrapped(x, y, w as i64, h as i64, wrap) else { return [0.0; 3] };
-        match level.checked_sub(1).and_then(|l| self.levels.get(l)) {
-            Some(l) => l.rgb[y * l.width + x],
-            None => self.base.rgb(x, y),
-        }
-    }
-
-    /// Box-filtered halves down to one pixel.
-    fn build_levels(&mut self) {
-        let (mut w, mut h) = (self.base.width, self.base.height);
-        while w > 1 || h > 1 {
-            let level = self.levels.len();
-            let (nw, nh) = (w.div_ceil(2), h.div_ceil(2));
-            let mut rgb = Vec::with_capacity(nw * nh);
-            for y in 0..nh as i64 {
-                for x in 0..nw as i64 {
-                    let four = [(0, 0), (1, 0), (0, 1), (1, 1)]
-                        .map(|(dx, dy)| self.texel(level, 2 * x + dx, 2 * y + dy, WrapMode::Clamp));
-                    rgb.push(core::array::from_fn(|c| four.iter().map(|t| t[c]).sum::<f32>() * 0.25));
-                }
-            }
-            self.levels.push(Level { width: nw, height: nh, rgb });
-            (w, h) = (nw, nh);
-        }
-    }
-}
-
-/// The pixel that stands for (x, y); none beyond a black edge.
-fn wrapped(x: i64, y: i64, w: i64, h: i64, wrap: WrapMode) -> Option<(usize, usize)> {
-    let inside = x >= 0 && y >= 0 && x < w && y < h;
-    let (x, y) = match wrap {
-        _ if inside => (x, y),
-        WrapMode::Black => return None,
-        WrapMode::Repeat => (x.rem_euclid(w), y.rem_euclid(h)),
-        WrapMode::Clamp => (x.clamp(0, w - 1), y.clamp(0, h - 1)),
-        WrapMode::Octahedral => {
-            let (mut x, mut y) = (x, y);
-            if x < 0 || x >= w {
-                x = if x < 0 { -x - 1 } else { 2 * w - 1 - x };
-                y = h - 1 - y;
-            }
-            if y < 0 || y >= h {
-                y = if y < 0 { -y - 1 } else { 2 * h - 1 - y };
-                x = w - 1 - x;
-            }
-            (x.clamp(0, w - 1), y.clamp(0, h - 1))
-        }
-    };
-    Some((x as usize, y as usize))
-}
+use super::pyramid::Pyramid;
+use crate::integrator::{Column, pad};
 
 /// An image with the way it is looked up.
 #[derive(Debug)]
 pub(crate) struct ImageTexture {
-    image: Arc<LoadedImage>,
+    image: Arc<Pyramid>,
     filter: TextureFilter,
     wrap: WrapMode,
     max_anisotropy: f32,
@@ -105,36 +24,9 @@ pub(crate) struct ImageTexture {
 }
 
 impl ImageTexture {
-    /// Reads the image, or takes it from those read before.
-    ///
-    /// # Errors
-    /// A message that names the file and the fault.
-    pub(crate) fn load(
-        map: &ImageMap,
-        loaded: &mut HashMap<(PathBuf, String), Arc<LoadedImage>>,
-    ) -> Result<ImageTexture, String> {
-        let encoding = match map.encoding {
-            TextureEncoding::Default => None,
-            TextureEncoding::Linear => Some(Encoding::Linear),
-            TextureEncoding::Srgb => Some(Encoding::Srgb),
-            TextureEncoding::Gamma(g) => Some(Encoding::Gamma(g)),
-        };
-        let pyramid = matches!(map.filter, TextureFilter::Trilinear | TextureFilter::Ewa);
-        let key = (map.path.clone(), format!("{:?} {pyramid}", map.encoding));
-        let image = match loaded.get(&key) {
-            Some(i) => i.clone(),
-            None => {
-                let base = Image::read(&map.path, encoding).map_err(|e| e.to_string())?;
-                let mut i = LoadedImage { base, levels: Vec::new() };
-                if pyramid {
-                    i.build_levels();
-                }
-                let i = Arc::new(i);
-                loaded.insert(key, i.clone());
-                i
-            }
-        };
-        Ok(ImageTexture {
+    /// How a map looks at its image.
+    pub(crate) fn new(map: &ImageMap, image: Arc<Pyramid>) -> ImageTexture {
+        ImageTexture {
             image,
             filter: map.filter,
             wrap: map.wrap,
@@ -142,74 +34,68 @@ impl ImageTexture {
             scale: map.scale,
             invert: map.invert,
             mapping: map.mapping,
-        })
+        }
     }
 
     /// Linear RGB at a point.
     pub(crate) fn rgb(&self, ctx: &TextureContext) -> [f32; 3] {
-        let mut c = TexCoord::new(&self.mapping, ctx);
-        // Images have their first row at the top, texture coordinates grow upwards.
-        c.st[1] = 1.0 - c.st[1];
-        self.lookup(&c).map(|v| {
-            let v = v * self.scale;
-            if self.invert { (1.0 - v).max(0.0) } else { v }
-        })
+        let c = self.coordinates(ctx);
+        let rgb = match self.filter {
+            TextureFilter::Point => {
+                let size = self.image.size(0);
+                let [x, y] = [0, 1].map(|i| (c.st[i] * size[i]).floor() as i64);
+                self.image.texel(0, x, y, self.wrap)
+            }
+            TextureFilter::Bilinear => self.image.bilinear(c.st, 1, self.wrap),
+            TextureFilter::Trilinear => self.image.trilinear(c.width(), c.st, 1, self.wrap),
+            TextureFilter::Ewa => self.ewa(&c),
+        };
+        rgb.map(|v| self.adjusted(v))
+    }
+
+    /// [`rgb`](Self::rgb) at many points, by channels; what filters linearly does so in lanes, with the same bits.
+    pub(crate) fn rgb_many(&self, contexts: &[TextureContext], rgb: &mut [Column; 3]) {
+        if matches!(self.filter, TextureFilter::Point | TextureFilter::Ewa) {
+            for (k, ctx) in contexts.iter().enumerate() {
+                rgb.iter_mut().zip(self.rgb(ctx)).for_each(|(column, v)| column[k] = v);
+            }
+            return;
+        }
+        let mut places = Places::default();
+        for (k, ctx) in contexts.iter().enumerate() {
+            let c = self.coordinates(ctx);
+            (places.s[k], places.t[k], places.width[k]) = (c.st[0], c.st[1], c.width());
+        }
+        for column in [&mut places.s, &mut places.t, &mut places.width] {
+            pad(column, contexts.len());
+        }
+        in_lanes(Filtered { texture: self, n: contexts.len(), places: &places, rgb });
     }
 
     /// The mean of the channels at a point.
     pub(crate) fn float(&self, ctx: &TextureContext) -> f32 {
-        let [r, g, b] = self.rgb(ctx);
-        (r + g + b) / 3.0
+        mean(self.rgb(ctx))
     }
 
-    fn lookup(&self, c: &TexCoord) -> [f32; 3] {
-        match self.filter {
-            TextureFilter::Point => {
-                let (w, h) = self.image.size(0);
-                let at = |v: f32, n: usize| (v * n as f32).floor() as i64;
-                self.image.texel(0, at(c.st[0], w), at(c.st[1], h), self.wrap)
-            }
-            TextureFilter::Bilinear => self.bilinear(0, c.st),
-            TextureFilter::Trilinear => {
-                let [a, b] = c.dst;
-                let width = 2.0 * a[0].abs().max(a[1].abs()).max(b[0].abs()).max(b[1].abs());
-                self.trilinear(width, c.st)
-            }
-            TextureFilter::Ewa => self.ewa(c),
-        }
+    /// [`float`](Self::float) at many points.
+    pub(crate) fn float_many(&self, contexts: &[TextureContext], out: &mut Column) {
+        let mut rgb = [Column::default(); 3];
+        self.rgb_many(contexts, &mut rgb);
+        (0..contexts.len()).for_each(|k| out[k] = mean([rgb[0][k], rgb[1][k], rgb[2][k]]));
     }
 
-    fn bilinear(&self, level: usize, st: [f32; 2]) -> [f32; 3] {
-        let (w, h) = self.image.size(level);
-        let (x, y) = (st[0] * w as f32 - 0.5, st[1] * h as f32 - 0.5);
-        let (xi, yi) = (x.floor() as i64, y.floor() as i64);
-        let (dx, dy) = (x - x.floor(), y - y.floor());
-        let t = |i, j| self.image.texel(level, xi + i, yi + j, self.wrap);
-        let (a, b, c, d) = (t(0, 0), t(1, 0), t(0, 1), t(1, 1));
-        core::array::from_fn(|k| {
-            (a[k] * (1.0 - dx) + b[k] * dx) * (1.0 - dy) + (c[k] * (1.0 - dx) + d[k] * dx) * dy
-        })
+    /// Images have their first row at the top, texture coordinates grow upwards.
+    fn coordinates(&self, ctx: &TextureContext) -> TexCoord {
+        let mut c = TexCoord::new(&self.mapping, ctx);
+        c.st[1] = 1.0 - c.st[1];
+        c
     }
 
-    /// The level whose pixels are `width` wide, as a fraction.
-    fn level_of(&self, width: f32) -> f32 {
-        let n = self.image.levels.len() as f32;
-        n + Real::ln(width.max(1e-8)) * core::f32::consts::LOG2_E
-    }
-
-    fn trilinear(&self, width: f32, st: [f32; 2]) -> [f32; 3] {
-        let last = self.image.levels.len();
-        let level = self.level_of(width);
-        if level <= 0.0 {
-            return self.bilinear(0, st);
-        }
-        let whole = level.floor() as usize;
-        if whole >= last {
-            return self.bilinear(last, st);
-        }
-        let t = level - level.floor();
-        let (a, b) = (self.bilinear(whole, st), self.bilinear(whole + 1, st));
-        core::array::from_fn(|k| a[k] * (1.0 - t) + b[k] * t)
+    /// A number of the image with the map's scale and inversion.
+    #[inline(always)]
+    fn adjusted<R: Real>(&self, v: R) -> R {
+        let v = v * R::of(f64::from(self.scale));
+        if self.invert { (R::ONE - v).max(R::ZERO) } else { v }
     }
 
     /// Elliptically weighted average. [Heckbert1989, sec. 3.5.8]
@@ -226,12 +112,12 @@ impl ImageTexture {
             short *= s;
         }
         if short <= 0.0 {
-            return self.bilinear(0, c.st);
+            return self.image.bilinear(c.st, 1, self.wrap);
         }
-        let level = self.level_of(short).max(0.0);
-        let last = self.image.levels.len();
+        let level = self.image.level_of(short).max(0.0);
+        let last = self.image.last();
         if level >= last as f32 {
-            return self.bilinear(last, c.st);
+            return self.image.bilinear_on(last, c.st, self.wrap);
         }
         let (whole, t) = (level.floor() as usize, level - level.floor());
         let (a, b) = (self.ellipse(whole, c.st, major, minor), self.ellipse(whole + 1, c.st, major, minor));
@@ -240,8 +126,7 @@ impl ImageTexture {
 
     /// Gaussian average over the ellipse with the half axes `d0` and `d1` on one level.
     fn ellipse(&self, level: usize, st: [f32; 2], d0: [f32; 2], d1: [f32; 2]) -> [f32; 3] {
-        let (w, h) = self.image.size(level);
-        let size = [w as f32, h as f32];
+        let size = self.image.size(level);
         let p = [st[0] * size[0] - 0.5, st[1] * size[1] - 0.5];
         let d0 = [d0[0] * size[0], d0[1] * size[1]];
         let d1 = [d1[0] * size[0], d1[1] * size[1]];
@@ -269,7 +154,49 @@ impl ImageTexture {
                 }
             }
         }
-        if total > 0.0 { sum.map(|v| v / total) } else { self.bilinear(level, st) }
+        if total > 0.0 { sum.map(|v| v / total) } else { self.image.bilinear_on(level, st, self.wrap) }
+    }
+}
+
+/// The grey of a colour: the mean of its channels.
+fn mean([r, g, b]: [f32; 3]) -> f32 {
+    (r + g + b) / 3.0
+}
+
+/// Texture coordinates of many points, and how wide a texel may be there.
+#[derive(Default)]
+struct Places {
+    s: Column,
+    t: Column,
+    width: Column,
+}
+
+/// Looks up `n` places of a texture that filters linearly.
+struct Filtered<'a> {
+    texture: &'a ImageTexture,
+    n: usize,
+    places: &'a Places,
+    rgb: &'a mut [Column; 3],
+}
+
+impl InLanes for Filtered<'_> {
+    type Output = ();
+    #[inline(always)]
+    fn run<R: Real>(self) {
+        let Filtered { texture, n, places: Places { s, t, width }, rgb } = self;
+        let (image, wrap) = (&*texture.image, texture.wrap);
+        for k in (0..n).step_by(R::WIDTH) {
+            let st = [R::load(&s[..], k), R::load(&t[..], k)];
+            let found = match texture.filter {
+                TextureFilter::Trilinear => image.trilinear(R::load(&width[..], k), st, n - k, wrap),
+                TextureFilter::Point | TextureFilter::Bilinear | TextureFilter::Ewa => {
+                    image.bilinear(st, n - k, wrap)
+                }
+            };
+            for c in 0..3 {
+                texture.adjusted(found[c]).store(&mut rgb[c][..], k);
+            }
+        }
     }
 }
 

@@ -15,6 +15,12 @@ pub(super) struct TexCoord {
 }
 
 impl TexCoord {
+    /// The width that a texel of the level fit for them has, as a share of the image.
+    pub(super) fn width(&self) -> f32 {
+        let [a, b] = self.dst;
+        2.0 * a[0].abs().max(a[1].abs()).max(b[0].abs()).max(b[1].abs())
+    }
+
     pub(super) fn new(mapping: &Mapping, ctx: &TextureContext) -> TexCoord {
         match mapping {
             Mapping::Uv { scale, delta } => {

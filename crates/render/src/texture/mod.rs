@@ -2,20 +2,28 @@
 
 mod image_map;
 mod mapping;
+mod pyramid;
+#[cfg(test)]
+mod tests;
+mod texels;
 
 use std::collections::HashMap;
 use std::path::PathBuf;
 use std::sync::Arc;
 
 use sparrow_math::{Transform, Vec3};
-use sparrow_scene::{FloatTexture, FloatTextureId, Mapping, SceneDesc, SpectrumTexture, SpectrumTextureId};
-use sparrow_spectra::{ColorSpace, RgbRole, Spectrum, Wavelengths};
+use sparrow_scene::{
+    FloatTexture, FloatTextureId, ImageMap, Mapping, SceneDesc, SpectrumTexture, SpectrumTextureId,
+};
+use sparrow_spectra::{ColorSpace, N_LAMBDA, RgbRole, Spectrum, Wavelengths};
 
+use image_map::ImageTexture;
 pub(crate) use image_map::to_equal_area;
-pub(crate) use image_map::{ImageTexture, LoadedImage};
 use mapping::TexCoord;
+use pyramid::Pyramid;
 
 use crate::colour::Carrier;
+use crate::integrator::Column;
 use crate::spectrum::SceneSpectrum;
 
 /// Where a texture is evaluated.
@@ -81,8 +89,12 @@ pub(crate) struct Textures {
     spectra: Vec<SpectrumNode>,
     /// Copies of spectral textures that a second role needed: (texture, role) to index.
     roles: HashMap<(u32, RgbRole), SpectrumTextureId>,
-    images: HashMap<(PathBuf, String), Arc<LoadedImage>>,
+    images: HashMap<ImageKey, Arc<Pyramid>>,
 }
+
+/// What tells images in memory apart: the file, its encoding in words, whether there are coarser levels, and the space that its colours
+/// were brought from.
+type ImageKey = (PathBuf, String, bool, Option<ColorSpace>);
 
 impl Textures {
     /// Builds the scalar textures; spectral ones follow on demand, because what RGB means depends on their use.
@@ -102,7 +114,7 @@ impl Textures {
                 FloatTexture::Constant(v) => FloatNode::Constant(*v),
                 FloatTexture::Scale(a, b) => FloatNode::Scale(*a, *b),
                 FloatTexture::Mix { a, b, amount } => FloatNode::Mix([*a, *b, *amount]),
-                FloatTexture::Image(map) => match ImageTexture::load(map, &mut t.images) {
+                FloatTexture::Image(map) => match t.image(map, None) {
                     Ok(image) => FloatNode::Image(image),
                     Err(e) => {
                         faults.push(e);
@@ -137,13 +149,17 @@ impl Textures {
                 self.spectrum(desc, *b, role, faults),
                 *amount,
             ),
-            SpectrumTexture::Image(map, space) => match ImageTexture::load(map, &mut self.images) {
-                Ok(image) => SpectrumNode::Image(image, *space, role),
-                Err(e) => {
-                    faults.push(e);
-                    SpectrumNode::Constant(SceneSpectrum::Constant(0.0))
+            SpectrumTexture::Image(map, space) => {
+                // What is taken from one is not the same in another space.
+                let carried = self.carrier.space().filter(|own| own != space && !map.invert);
+                match self.image(map, carried.map(|own| (*space, own))) {
+                    Ok(image) => SpectrumNode::Image(image, carried.unwrap_or(*space), role),
+                    Err(e) => {
+                        faults.push(e);
+                        SpectrumNode::Constant(SceneSpectrum::Constant(0.0))
+                    }
                 }
-            },
+            }
             SpectrumTexture::Checkerboard { dimension, mapping, to_texture, tex } => {
                 let pair = tex.map(|t| self.spectrum(desc, t, role, faults));
                 SpectrumNode::Checkerboard(checkerboard(*dimension, mapping, to_texture), pair)
@@ -153,6 +169,29 @@ impl Textures {
         self.spectra.push(node);
         self.roles.insert((id.0, role), here);
         here
+    }
+
+    /// Reads the image of a map, or takes it from those read before; `spaces` are those of its colours and those wanted.
+    ///
+    /// # Errors
+    /// A message that names the file and the fault.
+    fn image(
+        &mut self,
+        map: &ImageMap,
+        spaces: Option<(ColorSpace, ColorSpace)>,
+    ) -> Result<ImageTexture, String> {
+        let (encoding, coarser) = (format!("{:?}", map.encoding), Pyramid::is_asked_for(map.filter));
+        let key = (map.path.clone(), encoding, coarser, spaces.map(|(from, _)| from));
+        let image = match self.images.get(&key) {
+            Some(image) => image.clone(),
+            None => {
+                let matrix = spaces.map(|(from, to)| from.to_space(to));
+                let image = Arc::new(Pyramid::read(map, matrix.as_ref())?);
+                self.images.insert(key, image.clone());
+                image
+            }
+        };
+        Ok(ImageTexture::new(map, image))
     }
 
     /// Value of the scalar texture `id`.
@@ -188,6 +227,39 @@ impl Textures {
             }
             SpectrumNode::Checkerboard(board, tex) => self.value(tex[board.cell(ctx)], ctx, w),
         }
+    }
+
+    /// [`float`](Self::float) at many points; images that filter linearly are looked up in lanes.
+    pub(crate) fn float_many(&self, id: FloatTextureId, contexts: &[TextureContext], out: &mut Column) {
+        match &self.floats[id.0 as usize] {
+            FloatNode::Image(image) => image.float_many(contexts, out),
+            FloatNode::Constant(_)
+            | FloatNode::Scale(..)
+            | FloatNode::Mix(_)
+            | FloatNode::Checkerboard(..) => {
+                contexts.iter().enumerate().for_each(|(k, ctx)| out[k] = self.float(id, ctx));
+            }
+        }
+    }
+
+    /// [`value`](Self::value) at many points; images that filter linearly are looked up in lanes.
+    pub(crate) fn value_many(
+        &self,
+        id: SpectrumTextureId,
+        contexts: &[TextureContext],
+        w: &[Wavelengths],
+        out: &mut [Column; N_LAMBDA],
+    ) {
+        let mut put = |k: usize, s: Spectrum<f32>| out.iter_mut().zip(s.0).for_each(|(c, v)| c[k] = v);
+        if let SpectrumNode::Image(image, space, role) = &self.spectra[id.0 as usize] {
+            let mut rgb = [Column::default(); 3];
+            image.rgb_many(contexts, &mut rgb);
+            for (k, w) in w.iter().enumerate() {
+                put(k, self.carrier.of_image([rgb[0][k], rgb[1][k], rgb[2][k]], *space, *role, w));
+            }
+            return;
+        }
+        contexts.iter().zip(w).enumerate().for_each(|(k, (ctx, w))| put(k, self.value(id, ctx, w)));
     }
 
     /// The number of a texture that is the same everywhere.

@@ -1,4 +1,4 @@
-//! Every heuristic, every choice of lights and every sampler has the same mean, whatever shines and scatters.
+//! Every heuristic, every choice of lights, every sampler and every roulette has the same mean, whatever shines and scatters.
 
 #![allow(clippy::panic, clippy::expect_used, reason = "a test that cannot go on has failed")]
 

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use sparrow_mis::Mis;
 use sparrow_render::film::Film;
 use sparrow_render::{RenderOptions, RenderPlan, compile, render};
-use sparrow_scene::{LightSamplerName, SamplerName, SceneDesc};
+use sparrow_scene::{LightSamplerName, RouletteName, SamplerName, SceneDesc};
 use sparrow_stats::special::normal_tails;
 use sparrow_stats::{Mean, sidak, welch_p};
 
@@ -27,6 +27,7 @@ pub(crate) struct Setting {
     pub(crate) mis: Mis,
     pub(crate) lights: LightSamplerName,
     pub(crate) sampler: SamplerName,
+    pub(crate) roulette: RouletteName,
     pub(crate) splits: u32,
 }
 
@@ -34,15 +35,21 @@ fn mis(word: &str) -> Mis {
     word.parse().unwrap_or_else(|e| panic!("{e}"))
 }
 
-/// Every heuristic, every choice of lights, every sampler.
+/// Every heuristic, every choice of lights, every sampler, every roulette.
 pub(crate) static SETTINGS: LazyLock<Vec<Setting>> = LazyLock::new(|| {
-    let usual =
-        Setting { mis: mis("power"), lights: LightSamplerName::Bvh, sampler: SamplerName::ZSobol, splits: 1 };
+    let usual = Setting {
+        mis: mis("power"),
+        lights: LightSamplerName::Bvh,
+        sampler: SamplerName::ZSobol,
+        roulette: RouletteName::Throughput,
+        splits: 1,
+    };
     let heuristics = Mis::EXAMPLES.iter().map(|word| Setting { mis: mis(word), ..usual });
     let lights = all_lights().into_iter().map(|lights| Setting { lights, ..usual });
     let samplers = all_samplers().into_iter().map(|sampler| Setting { sampler, ..usual });
+    let efficiency = [1, 3].map(|splits| Setting { roulette: RouletteName::Efficiency, splits, ..usual });
     let split = Mis::EXAMPLES.iter().map(|word| Setting { mis: mis(word), splits: 3, ..usual });
-    heuristics.chain(lights).chain(samplers).chain(split).collect()
+    heuristics.chain(lights).chain(samplers).chain(efficiency).chain(split).collect()
 });
 
 /// All but the one that every heuristic runs with. A new kind makes the `match` incomplete.
@@ -83,6 +90,7 @@ pub(crate) fn measure(text: &str, setting: Setting, spp: u32, first_seed: u64) -
     desc.integrator.light_sampler = setting.lights;
     desc.integrator.splits = Some(setting.splits);
     desc.sampler.name = setting.sampler;
+    desc.integrator.roulette = setting.roulette;
     desc.sampler.samples_per_pixel = spp;
     desc.sampler.strata = [spp / 4, 4];
     let plans: Vec<RenderPlan> = (0..SEEDS).map(|seed| plan(&mut desc, first_seed + seed)).collect();
@@ -144,6 +152,7 @@ pub(crate) fn try_all(text: &str, true_text: &str, truth: &Truth) -> Vec<Verdict
         mis: mis("balance"),
         lights: LightSamplerName::Uniform,
         sampler: SamplerName::PaddedSobol,
+        roulette: RouletteName::Throughput,
         splits: 1,
     };
     let truth = match truth {

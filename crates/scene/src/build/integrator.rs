@@ -2,7 +2,7 @@
 
 use super::Builder;
 use crate::desc::{
-    IntegratorDesc, IntegratorName, LightSamplerName, RandomizeName, SamplerDesc, SamplerName,
+    IntegratorDesc, IntegratorName, LightSamplerName, RandomizeName, RouletteName, SamplerDesc, SamplerName,
 };
 use crate::params::Params;
 use sparrow_mis::{Heuristic, Mis};
@@ -85,6 +85,7 @@ impl Builder {
             splits: None,
             mis: Mis::Both(Heuristic::Power(2.0)),
             mis_compensation: true,
+            roulette: RouletteName::Throughput,
         };
         let Some(statement) = self.setup.integrator.take() else { return desc };
         let p = &statement.params;
@@ -116,6 +117,8 @@ impl Builder {
         }
         desc.mis_compensation = p.bool_or("miscompensation", true);
         desc.mis = self.mis(p).unwrap_or(desc.mis);
+        let roulettes = [("throughput", RouletteName::Throughput), ("efficiency", RouletteName::Efficiency)];
+        desc.roulette = self.choice(p, "roulette", &roulettes, "throughput").unwrap_or(desc.roulette);
         desc
     }
 

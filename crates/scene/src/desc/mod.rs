@@ -23,7 +23,7 @@ pub use curves::{CurveBasis, CurveKind, Curves};
 pub use instance::{InstanceDesc, PrototypeDesc};
 pub use light::{AreaLightDesc, LightDesc, LightKind, LightSamplerName};
 pub use material::{MaterialDesc, RealParam, SpectrumParam};
-pub use sampling::{IntegratorDesc, IntegratorName, RandomizeName, SamplerDesc, SamplerName};
+pub use sampling::{IntegratorDesc, IntegratorName, RandomizeName, RouletteName, SamplerDesc, SamplerName};
 pub use shape::{Mesh, ShapeDesc, ShapeKind};
 pub use spectrum::{Emission, SpectrumDesc};
 pub use texture::{

@@ -70,6 +70,17 @@ pub struct IntegratorDesc {
     pub mis: Mis,
     /// MIS compensation of environment lights.
     pub mis_compensation: bool,
+    /// How the end of paths is decided.
+    pub roulette: RouletteName,
+}
+
+/// What Russian roulette goes by.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RouletteName {
+    /// What a path carries of what it began with.
+    Throughput,
+    /// The same, and what going on is worth and costs, as a pilot finds.
+    Efficiency,
 }
 
 impl IntegratorDesc {

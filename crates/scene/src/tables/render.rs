@@ -93,17 +93,22 @@ const DEPTH: &[Row] = &[row("maxdepth", Kind::Int)];
 const LIGHTS: &[Row] = &[row("lightsampler", Kind::Text), row("regularize", Kind::Bool)];
 const STRATEGIES: &[Row] = &[row("samplelights", Kind::Bool), row("samplebsdf", Kind::Bool)];
 /// Sparrow's own.
-const MIS: &[Row] = &[row("mis", Kind::Text), row("miscompensation", Kind::Bool), row("splits", Kind::Int)];
+const OURS: &[Row] = &[
+    row("mis", Kind::Text),
+    row("miscompensation", Kind::Bool),
+    row("roulette", Kind::Text),
+    row("splits", Kind::Int),
+];
 const SAME_LIGHT: &str = "\"path\" is used, which finds the same light with other noise";
 
 pub(super) static INTEGRATORS: [Entity; 13] = [
-    Entity::new("path", &[DEPTH, LIGHTS, STRATEGIES, MIS]),
-    Entity::new("volpath", &[DEPTH, LIGHTS, STRATEGIES, MIS]),
-    Entity::new("simplepath", &[DEPTH, LIGHTS, STRATEGIES, MIS]),
+    Entity::new("path", &[DEPTH, LIGHTS, STRATEGIES, OURS]),
+    Entity::new("volpath", &[DEPTH, LIGHTS, STRATEGIES, OURS]),
+    Entity::new("simplepath", &[DEPTH, LIGHTS, STRATEGIES, OURS]),
     // Sparrow's own: paths one at a time.
-    Entity::new("reference", &[DEPTH, LIGHTS, STRATEGIES, MIS]),
+    Entity::new("reference", &[DEPTH, LIGHTS, STRATEGIES, OURS]),
     // Sparrow's own: one bounce of light and specular chains.
-    Entity::new("directlighting", &[DEPTH, LIGHTS, STRATEGIES, MIS]),
+    Entity::new("directlighting", &[DEPTH, LIGHTS, STRATEGIES, OURS]),
     Entity::new("simplevolpath", &[DEPTH]).instead("\"path\" is used, which also scatters at surfaces"),
     Entity::new("lightpath", &[DEPTH]).instead(SAME_LIGHT),
     Entity::new("randomwalk", &[DEPTH]).instead(SAME_LIGHT),

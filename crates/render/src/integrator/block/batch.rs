@@ -10,10 +10,11 @@ use super::column::{Column, pad, padded, put_spectrum, put_vector, spectrum, vec
 use super::lanes::{ToLocal, ToWorld};
 use super::lights::{LightChoice, LightChoices};
 use super::paths::Paths;
-use crate::integrator::PathIntegrator;
 use crate::integrator::path::{light_dimension, scatter_dimension};
+use crate::integrator::{PathIntegrator, Record};
 use crate::light::{LightSample, LitPoint};
 use crate::material::{MaterialColumns, Points};
+use crate::roulette::Roulette;
 use crate::sampler::{PixelSampler, Sampler};
 use crate::scatter::{Density, Scatter, ScatterSample};
 use crate::scene::{Scene, fibre_offset};
@@ -203,11 +204,12 @@ impl<'a> Batch<'a> {
     }
 
     /// The next direction of each path; the path ends where there is none, or where roulette says so.
-    pub(super) fn scatter<R: Default>(
+    pub(super) fn scatter<'b, R: Record + Default>(
         &mut self,
         how: &PathIntegrator,
         paths: &mut Paths<'_, R>,
         points: &[Option<SurfacePoint>],
+        roulette: impl Fn([u32; 2]) -> Roulette<'b>,
     ) {
         let columns = &mut self.columns;
         let numbers = &columns.numbers;
@@ -231,7 +233,8 @@ impl<'a> Batch<'a> {
             paths.ended[i] = true;
             if let (Some(s), Some(point)) = (sample, &points[i]) {
                 let u = columns.numbers.roulette[self.numbers_of[k] as usize];
-                paths.ended[i] = !paths.go_on(i, how, point, &s, u);
+                let roulette = roulette(paths.place[i].pixel);
+                paths.ended[i] = !paths.go_on(i, how, point, &s, u, roulette);
             }
         }
     }

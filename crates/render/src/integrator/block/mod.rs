@@ -88,7 +88,7 @@ impl<'a, R: Record + Default> Block<'a, R> {
                 self.batch.bind(scene, &mut self.paths, &self.points, key);
                 self.batch.f_cos_pdf();
                 self.shadows.push(&how, &self.batch, &self.paths, &self.points);
-                self.batch.scatter(&how, &mut self.paths, &self.points);
+                self.batch.scatter(&how, &mut self.paths, &self.points, |pixel| tile.roulette(pixel));
             }
             self.rays.shadow += self.shadows.trace(scene, &mut self.paths);
             self.film(tile);

@@ -3,10 +3,10 @@
 use sparrow_geometry::{Ray, SurfacePoint};
 use sparrow_spectra::{Spectrum, Wavelengths};
 
-use crate::integrator::path::roulette;
 use crate::integrator::start::FilmPlace;
-use crate::integrator::{CameraSample, PathIntegrator};
+use crate::integrator::{CameraSample, PathIntegrator, Record};
 use crate::light::LitPoint;
+use crate::roulette::Roulette;
 use crate::sampler::PixelSampler;
 use crate::scatter::{Density, ScatterSample};
 use crate::scene::LastVertex;
@@ -55,7 +55,7 @@ impl<R> Default for Paths<'_, R> {
     }
 }
 
-impl<'a, R: Default> Paths<'a, R> {
+impl<'a, R: Record + Default> Paths<'a, R> {
     pub(super) fn len(&self) -> usize {
         self.ray.len()
     }
@@ -117,6 +117,7 @@ impl<'a, R: Default> Paths<'a, R> {
         point: &SurfacePoint,
         s: &ScatterSample,
         u: f32,
+        roulette: Roulette<'_>,
     ) -> bool {
         let (beta, n) = (&mut self.beta[i], how.ways_on(self.depth[i]));
         *beta *= s.weight * (1.0 / n);
@@ -132,13 +133,14 @@ impl<'a, R: Default> Paths<'a, R> {
         self.ray[i] = point.spawn(s.wi);
         self.depth[i] += 1;
 
-        let survival = roulette((*beta * self.eta_scale[i]).max_value());
+        let survival = roulette.survival(point.p, *beta, self.eta_scale[i]);
         if survival < 1.0 && self.depth[i] > 1 {
             if u >= survival {
                 return false;
             }
             *beta *= 1.0 / survival;
         }
+        self.record[i].goes_on(point.p, *beta);
         true
     }
 }
