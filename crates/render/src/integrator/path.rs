@@ -99,6 +99,7 @@ impl PathIntegrator {
         let (mut depth, mut n_smooth, mut eta_scale) = (0u32, 0, 1.0);
         loop {
             let hit = scene.intersect(&ray);
+            // The light of the first vertex belongs to the first way on; a vertex has `n` of them.
             let (own, n) = (depth > 0 || way == 0, self.ways_on(depth));
             rays.scattered += u64::from(own);
             let by = depth.checked_sub(1).map_or(Finder::Camera, Finder::Bsdf);
