@@ -1,6 +1,8 @@
 //! Densities of drawn directions.
 
-use sparrow_geometry::{BilinearMesh, Geometry, Ray, Shape, ShapeInstance, TriangleMesh, Viewpoint};
+use sparrow_geometry::{
+    BilinearMesh, Geometry, Ray, SampleColumns, Shape, ShapeInstance, ShapeSample, TriangleMesh, Viewpoint,
+};
 use sparrow_math::{Transform, Vec3, vec3};
 
 use super::{Rng, at, placed, quadrics};
@@ -238,4 +240,79 @@ fn areas() {
     ]);
     assert!((g.area(0, 0) / (16.0 * core::f32::consts::PI) - 1.0).abs() < 1e-6);
     assert!((g.area(1, 0) - 6.0).abs() < 1e-5);
+}
+
+fn bits(s: &ShapeSample) -> Vec<u32> {
+    let vectors = [s.p, s.p_error, s.n, s.wi].into_iter().flat_map(Vec3::to_array);
+    vectors.chain([s.distance, s.pdf]).map(f32::to_bits).collect()
+}
+
+/// Rectangles, with and without normals, and balls, seen from afar, from close by, from their plane and from inside: lanes draw
+/// what is drawn one by one. Other shapes say that they have no lanes.
+#[test]
+fn lanes_draw_what_is_drawn_one_by_one() {
+    const N: usize = 23;
+    let mut rng = Rng(11);
+    let flat = [[-0.5, -0.4, 0.0], [0.5, -0.4, 0.0], [-0.5, 0.4, 0.0], [0.5, 0.4, 0.0]];
+    let shaded = BilinearMesh {
+        p: flat.to_vec(),
+        n: vec![[0.1, 0.0, -1.0]; 4],
+        indices: vec![[0, 1, 2, 3]],
+        ..Default::default()
+    };
+    let turned = Transform::scale(vec3(0.5, 0.5, -0.5)).unwrap();
+    let shapes = [patch(flat), placed(Shape::Patches(shaded)), at(super::sphere(0.8), turned)];
+    for (i, shape) in shapes.into_iter().enumerate() {
+        let g = Geometry::build(vec![shape]);
+        let mut n_drawn = 0;
+        for round in 0..40 {
+            let from: [Vec3<f32>; N] = core::array::from_fn(|k| match (k + round) % 5 {
+                0 => rng.direction() * 100.0,
+                1 => rng.direction() * 0.1,
+                2 => vec3(3.0, 0.2, 0.0),
+                _ => rng.direction() * 1.5,
+            });
+            let normals: [Vec3<f32>; N] = core::array::from_fn(|_| rng.direction());
+            let u: [[f32; 2]; N] = core::array::from_fn(|_| rng.pair());
+            // The lanes beyond the last viewpoint repeat it.
+            let column =
+                |v: &dyn Fn(usize) -> f32| -> Vec<f32> { (0..32).map(|k| v(k.min(N - 1))).collect() };
+            let vectors = |v: &[Vec3<f32>; N]| [0, 1, 2].map(|c| column(&|k| v[k].to_array()[c]));
+            let (at, n) = (vectors(&from), vectors(&normals));
+            let pairs = [0, 1].map(|c| column(&|k| u[k][c]));
+            let mut out = vec![[0.0; 32]; 11];
+            let [px, py, pz, nx, ny, nz, wx, wy, wz, distance, pdf] = &mut out[..] else { unreachable!() };
+            let mut columns = SampleColumns {
+                from: at.each_ref().map(|c| &c[..]),
+                n: n.each_ref().map(|c| &c[..]),
+                u: pairs.each_ref().map(|c| &c[..]),
+                p: [px, py, pz],
+                on: [nx, ny, nz],
+                wi: [wx, wy, wz],
+                distance,
+                pdf,
+            };
+            let mut many = vec![None; N];
+            assert!(g.sample_from_many(0, 0, &mut columns, N, |k, s| many[k] = s), "shape {i}");
+            for (k, many) in many.iter().enumerate() {
+                let one = g.sample_from(0, 0, Viewpoint { p: from[k], n: Some(normals[k]) }, u[k]);
+                assert_eq!(one.as_ref().map(bits), many.as_ref().map(bits), "shape {i} from {:?}", from[k]);
+                n_drawn += usize::from(one.is_some());
+            }
+        }
+        assert!(n_drawn > 30 * N, "shape {i}: {n_drawn}");
+    }
+    let bent = patch([[-0.5, -0.4, 0.3], [0.5, -0.4, -0.2], [-0.5, 0.4, 0.0], [0.5, 0.6, 0.4]]);
+    let g = Geometry::build(vec![bent]);
+    let mut none = SampleColumns {
+        from: [&[]; 3],
+        n: [&[]; 3],
+        u: [&[]; 2],
+        p: [&mut [], &mut [], &mut []],
+        on: [&mut [], &mut [], &mut []],
+        wi: [&mut [], &mut [], &mut []],
+        distance: &mut [],
+        pdf: &mut [],
+    };
+    assert!(!g.sample_from_many(0, 0, &mut none, 0, |_, _| ()));
 }
