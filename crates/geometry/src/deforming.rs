@@ -14,6 +14,20 @@ use crate::point::SurfacePoint;
 use crate::ray::{Hit, Ray};
 use crate::triangle::DeformingTriangles;
 
+/// Corners of a primitive at both ends of its motion, if they exist and are finite.
+pub(crate) fn corners_at_ends<const N: usize>(
+    points: &[&Vec<[f32; 3]>; 2],
+    at: &[u32; N],
+) -> Option<[[[f32; 3]; N]; 2]> {
+    let mut ends = [[[0.0; 3]; N]; 2];
+    for (end, list) in ends.iter_mut().zip(points) {
+        for (p, &i) in end.iter_mut().zip(at) {
+            *p = *list.get(i as usize)?;
+        }
+    }
+    ends.as_flattened().as_flattened().iter().all(|v| v.is_finite()).then_some(ends)
+}
+
 /// A shape that deforms, ready to be asked.
 #[derive(Debug)]
 pub(crate) enum Deforming {

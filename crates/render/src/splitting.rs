@@ -81,7 +81,7 @@ impl PathIntegrator {
 }
 
 impl RenderPlan {
-    /// The sampler `of` a render of this plan, with points for all ways on of each camera sample.
+    /// A sampler for a render of this plan, with points for all ways on of each camera sample.
     pub(crate) fn sampler_of_ways(&self, config: &SamplerConfig, splits: u32) -> Sampler {
         let samples_per_pixel = config.samples_per_pixel.saturating_mul(splits);
         Sampler::new(&SamplerConfig { samples_per_pixel, ..*config })

@@ -235,6 +235,14 @@ impl Geometry {
             Body::Quadric(q) => q.as_ref()?.sample_from(from, u),
         }
     }
+    /// [`sample_from_many`](Self::sample_from_many) has lanes for that primitive: a rectangle or a whole ball.
+    pub fn samples_in_lanes(&self, shape: u32, prim: u32) -> bool {
+        match self.body(shape) {
+            Some(Body::Patches(m)) => m.is_rectangle(prim),
+            Some(Body::Quadric(Some(q))) => q.whole().is_some(),
+            Some(_) | None => false,
+        }
+    }
     /// [`sample_from`](Self::sample_from) from each of the first `n` viewpoints of `columns`, in lanes, to the bit; `put` is given the
     /// number of each and what was drawn. False, and nothing done, where such primitives are drawn one by one.
     ///

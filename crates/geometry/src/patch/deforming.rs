@@ -4,14 +4,14 @@ use sparrow_math::{Aabb, Vec3};
 
 use super::{Bilinear, Patches, hit_bilinear};
 use crate::bvh::{Kind, MotionBvh, Others, RawHit};
+use crate::deforming::corners_at_ends;
 use crate::lerp::Lerp;
 use crate::point::SurfacePoint;
 use crate::progress::Progress;
 use crate::ray::{Hit, Ray};
 use crate::shape::BilinearMesh;
 
-/// A mesh with vertices at both ends of its motion, ready to be asked. Also patches that are flat for now are met as curved
-/// ones.
+/// A mesh with vertices at both ends of its motion, ready to be asked. Every patch is met as a curved one, even where it is flat.
 #[derive(Debug)]
 pub(crate) struct DeformingPatches {
     mesh: BilinearMesh,
@@ -22,14 +22,7 @@ pub(crate) struct DeformingPatches {
 
 /// Corners at both ends, if they exist and are finite.
 fn usable(mesh: &BilinearMesh, prim: u32) -> Option<[[[f32; 3]; 4]; 2]> {
-    let at = mesh.indices.get(prim as usize)?;
-    let mut ends = [[[0.0; 3]; 4]; 2];
-    for (end, list) in ends.iter_mut().zip([&mesh.p, &mesh.p_end]) {
-        for (p, &i) in end.iter_mut().zip(at) {
-            *p = *list.get(i as usize)?;
-        }
-    }
-    ends.as_flattened().as_flattened().iter().all(|v| v.is_finite()).then_some(ends)
+    corners_at_ends(&[&mesh.p, &mesh.p_end], mesh.indices.get(prim as usize)?)
 }
 
 impl DeformingPatches {

@@ -58,6 +58,9 @@ impl Patches {
         let flat = self.flat(prim)?;
         Some((flat, flat.rectangle.as_ref()?))
     }
+    pub(crate) fn is_rectangle(&self, prim: u32) -> bool {
+        self.rectangle(prim).is_some()
+    }
     #[inline]
     fn drawn(&self, prim: u32, flat: &Flat, drawn: &Drawn<f32>) -> Option<ShapeSample> {
         let n = if self.mesh.n.is_empty() {

@@ -4,6 +4,7 @@ use sparrow_math::{Aabb, Vec3};
 
 use super::{Corners, double_area, pick, texture_coordinates};
 use crate::bvh::{Kind, MotionBvh};
+use crate::deforming::corners_at_ends;
 use crate::lerp::Lerp;
 use crate::point::SurfacePoint;
 use crate::progress::Progress;
@@ -21,14 +22,7 @@ pub(crate) struct DeformingTriangles {
 
 /// Corners at both ends, if they exist and are finite. A triangle may lose its area while it moves.
 fn usable(mesh: &TriangleMesh, prim: u32) -> Option<[[[f32; 3]; 3]; 2]> {
-    let at = mesh.indices.get(prim as usize)?;
-    let mut ends = [[[0.0; 3]; 3]; 2];
-    for (end, list) in ends.iter_mut().zip([&mesh.p, &mesh.p_end]) {
-        for (p, &i) in end.iter_mut().zip(at) {
-            *p = *list.get(i as usize)?;
-        }
-    }
-    ends.as_flattened().as_flattened().iter().all(|v| v.is_finite()).then_some(ends)
+    corners_at_ends(&[&mesh.p, &mesh.p_end], mesh.indices.get(prim as usize)?)
 }
 
 impl DeformingTriangles {

@@ -185,6 +185,11 @@ impl Lights {
         self.selection.probability(at, light)
     }
 
+    /// [`sample_many`](Self::sample_many) has lanes for that light.
+    pub(crate) fn samples_in_lanes(&self, geometry: &Geometry, light: u32) -> bool {
+        matches!(self.lights[light as usize], Light::Area { shape, prim, .. } if geometry.samples_in_lanes(shape, prim))
+    }
+
     /// [`sample`](Self::sample) from each of the first `n` points of `columns`, in lanes, to the bit; `put` is given the number of each and
     /// what was drawn. False, and nothing done, where such lights are drawn one by one.
     pub(crate) fn sample_many<'w>(

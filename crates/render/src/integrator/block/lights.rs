@@ -73,14 +73,13 @@ impl LightChoices {
                 put(choice(k), s);
             };
             let n = chosen.len();
-            let mut together = || {
+            if n >= FEW && lights.samples_in_lanes(geometry, light) {
                 let columns = &mut self.columns.of((0..n).map(choice));
-                lights.sample_many(geometry, light, columns, n, of, &mut put)
-            };
-            if n < FEW || !together() {
-                for k in 0..n {
-                    put(k, lights.sample(geometry, light, &choice(k).at, choice(k).u, of(k)));
-                }
+                lights.sample_many(geometry, light, columns, n, of, &mut put);
+                continue;
+            }
+            for k in 0..n {
+                put(k, lights.sample(geometry, light, &choice(k).at, choice(k).u, of(k)));
             }
         }
     }
