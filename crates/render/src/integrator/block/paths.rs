@@ -1,14 +1,11 @@
 //! The paths of a block: [`Paths`].
 
-use sparrow_geometry::{Ray, SurfacePoint};
+use sparrow_geometry::Ray;
 use sparrow_spectra::{Spectrum, Wavelengths};
 
 use crate::integrator::start::FilmPlace;
-use crate::integrator::{CameraSample, PathIntegrator, Record};
-use crate::light::LitPoint;
-use crate::roulette::Roulette;
+use crate::integrator::{CameraSample, Record};
 use crate::sampler::PixelSampler;
-use crate::scatter::{Density, ScatterSample};
 use crate::scene::LastVertex;
 
 /// Paths under way, a column for each thing that is known of them.
@@ -106,41 +103,5 @@ impl<'a, R: Record + Default> Paths<'a, R> {
         self.looks.swap_remove(i);
         self.ended.swap_remove(i);
         self.record.swap_remove(i);
-    }
-
-    /// Takes path `i` from `point` along a sampled direction; false where roulette ends it, by the uniform number `u`.
-    #[inline]
-    pub(super) fn go_on(
-        &mut self,
-        i: usize,
-        how: &PathIntegrator,
-        point: &SurfacePoint,
-        s: &ScatterSample,
-        u: f32,
-        roulette: Roulette<'_>,
-    ) -> bool {
-        let (beta, n) = (&mut self.beta[i], how.ways_on(self.depth[i]));
-        *beta *= s.weight * (1.0 / n);
-        self.eta_scale[i] *= s.eta * s.eta * n;
-        self.last[i] = match s.density {
-            Density::SolidAngle(pdf) => {
-                self.n_smooth[i] += 1;
-                let pdf = if self.looks[i] { n * pdf } else { 0.0 };
-                Some(LastVertex { at: LitPoint { p: point.p, n: point.ns }, pdf })
-            }
-            Density::Delta(_) => None,
-        };
-        self.ray[i] = point.spawn(s.wi);
-        self.depth[i] += 1;
-
-        let survival = roulette.survival(point.p, *beta, self.eta_scale[i]);
-        if survival < 1.0 && self.depth[i] > 1 {
-            if u >= survival {
-                return false;
-            }
-            *beta *= 1.0 / survival;
-        }
-        self.record[i].goes_on(point.p, *beta);
-        true
     }
 }
