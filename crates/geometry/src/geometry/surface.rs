@@ -6,6 +6,7 @@ use super::Geometry;
 use super::body::Body;
 use crate::columns::{SurfaceColumns, SurfaceParts};
 use crate::point::SurfacePoint;
+use crate::quadric::MIN_MANY;
 use crate::ray::{Hit, Ray};
 
 impl Geometry {
@@ -49,11 +50,32 @@ impl Geometry {
         parts: SurfaceParts,
         out: &mut SurfaceColumns<'_>,
     ) {
-        for (k, &i) in which.iter().enumerate() {
-            if let Some(hit) = &hits[i as usize] {
-                out.put(k, &self.surface(&rays[i as usize], hit), parts);
+        let plain = parts == SurfaceParts::default();
+        let mut k = 0;
+        while let Some(&i) = which.get(k) {
+            let (ray, hit) = (&rays[i as usize], &hits[i as usize]);
+            let n = if plain { self.quadric_many(rays, hits, &which[k..], k, out) } else { 0 };
+            if let (0, Some(hit)) = (n, hit) {
+                out.put(k, &self.surface(ray, hit), parts);
             }
+            k += n.max(1);
         }
+    }
+    /// The surface at as many of the first hits as lie on one quadric of the world, if it has a way for many; their number, else 0.
+    #[inline]
+    fn quadric_many(
+        &self,
+        rays: &[Ray],
+        hits: &[Option<Hit>],
+        which: &[u32],
+        first: usize,
+        out: &mut SurfaceColumns<'_>,
+    ) -> usize {
+        let on = |i: u32| hits[i as usize].filter(|hit| hit.instance.is_none()).map(|hit| hit.shape);
+        let shape = on(which[0]);
+        let Some(Body::Quadric(Some(q))) = shape.and_then(|shape| self.body(shape)) else { return 0 };
+        let n = which.iter().take_while(|i| on(**i) == shape).count();
+        if n >= MIN_MANY && q.surface_many(rays, hits, &which[..n], first, out) { n } else { 0 }
     }
 
     /// Derivatives of the shading normal by the texture coordinates at `hit`, which this geometry gave for `ray`.
