@@ -6,6 +6,7 @@
 //! mean in pbrt-v4.
 
 mod bvh;
+mod columns;
 mod curve;
 mod deforming;
 mod geometry;
@@ -21,6 +22,7 @@ mod shape;
 mod simd;
 mod triangle;
 
+pub use columns::{SurfaceColumns, SurfaceParts};
 pub use geometry::{BuildBytes, BuildStats, Geometry, GeometryParts};
 pub use instance::{Instance, MovingInstance};
 pub use point::{RoundedPoint, SHADOW_END, ShapeSample, SurfacePoint};

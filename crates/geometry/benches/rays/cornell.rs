@@ -7,6 +7,7 @@ use sparrow_math::{Transform, Vec3, vec3};
 
 use crate::race::{Many, Query, Single, Tracer, race};
 use crate::rays::{RaySets, Rng, camera, points};
+use crate::surfaces;
 
 /// Corners in the order p00, p10, p01, p11.
 const QUADS: [[[f32; 3]; 4]; 6] = [
@@ -44,6 +45,10 @@ pub(crate) fn run(rounds: usize, resolution: usize) {
     race("bounce", &tracers, &sets.bounce, rounds, Query::Closest);
     race("shadow of the bounces' points", &tracers, &second, rounds, Query::Any);
     race("bounces 2 and 3, shuffled", &tracers, &sets.shuffled, rounds, Query::Closest);
+    // The first three walls are of one material.
+    let material = |shape: u32| shape.max(2);
+    surfaces::run("surface points of the camera's rays", &geometry, &sets.camera, rounds, material);
+    surfaces::run("surface points of bounces", &geometry, &sets.shuffled, rounds, material);
 }
 
 /// Towards points of the lamp, from where the rays end.

@@ -23,6 +23,8 @@ mod race;
 mod rays;
 #[cfg(target_os = "linux")]
 mod scenes;
+#[cfg(target_os = "linux")]
+mod surfaces;
 
 #[cfg(not(target_os = "linux"))]
 fn main() {

@@ -3,6 +3,7 @@
 mod body;
 mod query;
 mod stats;
+mod surface;
 
 use std::time::Instant;
 
@@ -12,9 +13,8 @@ pub use stats::{BuildBytes, BuildStats};
 
 use crate::bvh::{Bvh, Few, MAX_PRIMS};
 use crate::instance::{Instance, Instances, MovingInstance};
-use crate::point::{ShapeSample, SurfacePoint};
+use crate::point::ShapeSample;
 use crate::progress::{BuildObserver, Progress};
-use crate::ray::{Hit, Ray};
 use crate::sample::{SampleColumns, Viewpoint, per_steradian};
 use crate::shape::{Shape, ShapeInstance};
 
@@ -133,51 +133,6 @@ impl Geometry {
         let few = alone.then(|| Few::new(&bvh, |id| bodies.ball(id))).flatten();
         progress.finish();
         Geometry { bodies, instances, first_instance, bvh, few, stats }
-    }
-
-    /// The surface at `hit`, which this geometry gave for `ray`.
-    ///
-    /// Panics for a hit of another geometry, or returns nonsense.
-    #[inline]
-    pub fn surface(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
-        let there = hit.instance.map(|i| self.instances.at(i, ray.time));
-        let point = match there {
-            None => self.local_surface(ray, hit),
-            Some(placed) => placed.surface(&self.local_surface(&placed.ray(ray), hit)),
-        };
-        SurfacePoint { time: ray.time, ..point }
-    }
-    /// The surface in the space of the shape.
-    #[inline]
-    fn local_surface(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
-        match &self.bodies.bodies[hit.shape as usize] {
-            Body::Triangles(m) => m.surface(hit),
-            Body::Patches(m) => m.surface(hit),
-            Body::Curves(c) => c.surface(ray, hit),
-            Body::Quadric(q) => match q {
-                Some(q) => q.surface(ray, hit),
-                None => SurfacePoint::nowhere(ray, hit),
-            },
-            Body::Deforming(d) => d.surface(ray, hit),
-        }
-    }
-
-    /// Derivatives of the shading normal by the texture coordinates at `hit`, which this geometry gave for `ray`.
-    ///
-    /// Few materials ask for them, so they are not part of [`SurfacePoint`]. Zero for curves.
-    pub fn normal_derivatives(&self, ray: &Ray, hit: &Hit) -> (Vec3<f32>, Vec3<f32>) {
-        if let Some(i) = hit.instance {
-            let (placed, local) = (self.instances.at(i, ray.time), Hit { instance: None, ..*hit });
-            let (u, v) = self.normal_derivatives(&placed.ray(ray), &local);
-            return (placed.normal(u), placed.normal(v));
-        }
-        match &self.bodies.bodies[hit.shape as usize] {
-            Body::Triangles(m) => m.normal_derivatives(hit),
-            Body::Patches(m) => m.normal_derivatives(hit),
-            Body::Quadric(Some(q)) => q.normal_derivatives(ray, hit),
-            Body::Deforming(d) => d.normal_derivatives(ray, hit),
-            Body::Curves(_) | Body::Quadric(None) => Default::default(),
-        }
     }
 
     /// Box around everything that can be hit.

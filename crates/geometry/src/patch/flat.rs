@@ -4,6 +4,8 @@ use sparrow_math::Vec3;
 
 use super::Bilinear;
 use crate::bvh::gamma;
+use crate::point::SurfacePoint;
+use crate::ray::Hit;
 use crate::sample::{Edges, Rectangle};
 
 /// A parallelogram, with what its points have in common worked out once.
@@ -13,6 +15,8 @@ pub(super) struct Flat {
     pub(super) area: f64,
     /// Unit normal, turned as the orientation says.
     pub(super) n: Vec3<f32>,
+    /// Derivatives of the point by the parameters.
+    pub(super) derivatives: [Vec3<f32>; 2],
     /// Bound of the rounding error of a point.
     pub(super) p_error: Vec3<f32>,
     /// The same for directions drawn to it, if its angles are right ones.
@@ -37,6 +41,7 @@ impl Flat {
             edges,
             area: edges.area(),
             n: if flip { -n } else { n }.to_f32(),
+            derivatives: [0, 1].map(|i: usize| (edges.axes[i] * edges.lengths[i]).to_f32()),
             p_error: p_error(p),
             rectangle: (e.dot(f).abs() <= 1e-5 * e.length() * f.length()).then(|| Rectangle::new(&edges)),
         }
@@ -59,11 +64,22 @@ impl Flat {
     pub(super) fn p_error_of_samples(&self) -> Vec3<f32> {
         self.p_error * 4.0
     }
-    /// Derivatives of the point by the parameters.
+    /// The surface at a hit, where the mesh says nothing of shading and textures.
     #[inline(always)]
-    pub(super) fn derivatives(&self) -> [Vec3<f32>; 2] {
-        let [ax, ay] = self.edges.axes;
-        let [lx, ly] = self.edges.lengths;
-        [(ax * lx).to_f32(), (ay * ly).to_f32()]
+    pub(super) fn surface(&self, hit: &Hit) -> SurfacePoint {
+        let [dpdu, dpdv] = self.derivatives;
+        SurfacePoint {
+            p: self.at(hit.u, hit.v),
+            p_error: self.p_error,
+            ng: self.n,
+            ns: self.n,
+            dpdu,
+            dpdv,
+            uv: [hit.u, hit.v],
+            tangent: dpdu,
+            shape: hit.shape,
+            prim: hit.prim,
+            time: 0.0,
+        }
     }
 }

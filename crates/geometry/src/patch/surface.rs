@@ -3,7 +3,7 @@
 use sparrow_math::{Vec3, vec3};
 
 use super::flat::p_error;
-use super::{Bilinear, Kind, Patches};
+use super::{Bilinear, Flat, Kind, Patches};
 use crate::point::SurfacePoint;
 use crate::ray::Hit;
 
@@ -75,7 +75,7 @@ impl Patches {
     pub(super) fn place(&self, prim: u32, u: f32, v: f32) -> Place {
         if let Kind::Flat(i) = self.kinds[prim as usize] {
             let f = &self.flats[i as usize];
-            let [du, dv] = f.derivatives();
+            let [du, dv] = f.derivatives;
             return Place { p: f.at(u, v), p_error: f.p_error, n: f.n, du, dv };
         }
         let p = self.corners(prim);
@@ -100,8 +100,26 @@ impl Patches {
         [[inv(st_u.x), inv(st_v.x)], [inv(st_u.y), inv(st_v.y)]]
     }
 
+    /// The parallelogram that a patch is, where the mesh says nothing of shading and textures.
+    #[inline(always)]
+    fn plain(&self, prim: u32) -> Option<&Flat> {
+        match self.kinds[prim as usize] {
+            Kind::Flat(i) if self.mesh.n.is_empty() && self.mesh.uv.is_empty() => {
+                Some(&self.flats[i as usize])
+            }
+            Kind::Flat(_) | Kind::Curved | Kind::Dropped => None,
+        }
+    }
+
     /// The surface at a hit; meanings as in pbrt-v4.
+    #[inline]
     pub(crate) fn surface(&self, hit: &Hit) -> SurfacePoint {
+        match self.plain(hit.prim) {
+            Some(flat) => flat.surface(hit),
+            None => self.surface_of_any(hit),
+        }
+    }
+    fn surface_of_any(&self, hit: &Hit) -> SurfacePoint {
         let (prim, u, v) = (hit.prim, hit.u, hit.v);
         let Place { p, p_error, n, du, dv } = self.place(prim, u, v);
         let (mut dpdu, mut dpdv) = (du, dv);

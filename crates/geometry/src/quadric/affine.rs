@@ -11,7 +11,7 @@ impl Affine {
         let [a, b, c, _] = *t.rows();
         Affine([a, b, c])
     }
-    #[inline]
+    #[inline(always)]
     pub(super) fn vector(&self, v: Vec3<f64>) -> Vec3<f64> {
         let row = |r: &[f64; 4]| r[0] * v.x + r[1] * v.y + r[2] * v.z;
         vec3(row(&self.0[0]), row(&self.0[1]), row(&self.0[2]))

@@ -10,7 +10,8 @@ use crate::sample;
 pub(super) struct Ball {
     pub(super) center: Vec3<f64>,
     pub(super) radius: f64,
-    /// Over the radius in object space.
+    pub(super) object_radius: f64,
+    /// The radius over that in object space.
     pub(super) scale: f64,
     /// The same for directions drawn to it.
     pub(super) single: sample::Ball,
@@ -19,7 +20,7 @@ pub(super) struct Ball {
 impl Ball {
     pub(super) fn new(center: Vec3<f64>, object_radius: f64, scale: f64) -> Ball {
         let radius = object_radius * scale;
-        Ball { center, radius, scale, single: sample::Ball::new(center, radius) }
+        Ball { center, radius, object_radius, scale, single: sample::Ball::new(center, radius) }
     }
     /// The origin of the ray, seen from the centre, and its direction.
     #[inline(always)]
@@ -30,31 +31,57 @@ impl Ball {
     #[inline(always)]
     pub(super) fn roots(&self, ray: &Ray) -> Option<[f64; 2]> {
         let (o, d) = self.line(ray);
-        let r2 = self.radius * self.radius;
-        let (a, b, c) = (d.length2(), o.dot(d), o.length2() - r2);
-        if c > 0.0 && b >= 0.0 {
+        let line = Line::new(o, d, self.radius);
+        if line.goes_away() || !line.meets() {
             return None;
         }
-        // The vector product is the distance of the line times |d|; it keeps its digits where b^2 - a c does not.
-        let disc = a * r2 - o.cross(d).length2();
-        if !(disc >= 0.0 && a > 0.0) {
-            return None;
-        }
-        let q = -(b + disc.sqrt().copysign(b));
-        let (x, y) = (q / a, c / q);
-        Some(if b < 0.0 { [y, x] } else { [x, y] })
+        let [x, y] = line.roots();
+        Some(if line.b < 0.0 { [y, x] } else { [x, y] })
     }
     /// The unit vector from the centre to where the ray meets the sphere close to `t`.
-    #[inline]
+    // Without a branch, so that loops run in lanes.
+    #[inline(always)]
     pub(super) fn outward(&self, ray: &Ray, t: f32) -> Vec3<f64> {
-        let t = f64::from(t);
+        let ((o, d), t) = (self.line(ray), f64::from(t));
+        let line = Line::new(o, d, self.radius);
+        let [x, y] = line.roots();
         // The root itself, not its rounded value, which may lie far off the surface.
-        let t = match self.roots(ray) {
-            Some([near, far]) if (near - t).abs() < (far - t).abs() => near,
-            Some([_, far]) => far,
-            None => t,
-        };
-        let (o, d) = self.line(ray);
+        let root = if (x - t).abs() < (y - t).abs() { x } else { y };
+        let t = if line.meets() { root } else { t };
         (o + d * t).normalized()
+    }
+}
+
+/// `a t^2 + 2 b t + c = 0` where a line meets a sphere around the origin.
+struct Line {
+    a: f64,
+    b: f64,
+    c: f64,
+    /// `b^2 - a c`
+    disc: f64,
+}
+
+impl Line {
+    #[inline(always)]
+    fn new(o: Vec3<f64>, d: Vec3<f64>, radius: f64) -> Line {
+        let r2 = radius * radius;
+        let (a, b, c) = (d.length2(), o.dot(d), o.length2() - r2);
+        // The vector product is the distance of the line times |d|; it keeps its digits where b^2 - a c does not.
+        Line { a, b, c, disc: a * r2 - o.cross(d).length2() }
+    }
+    /// The line begins outside and does not come nearer.
+    #[inline(always)]
+    fn goes_away(&self) -> bool {
+        self.c > 0.0 && self.b >= 0.0
+    }
+    #[inline(always)]
+    fn meets(&self) -> bool {
+        self.disc >= 0.0 && self.a > 0.0
+    }
+    /// The larger in magnitude first; not numbers where it does not meet.
+    #[inline(always)]
+    fn roots(&self) -> [f64; 2] {
+        let q = -(self.b + self.disc.sqrt().copysign(self.b));
+        [q / self.a, self.c / q]
     }
 }

@@ -39,6 +39,26 @@ fn share_of_turn(p: Vec3<f64>, phi_max: f64) -> f32 {
     phi / phi_max as f32
 }
 
+/// The derivative of a point by that share.
+#[inline(always)]
+fn around(p: Vec3<f64>, phi_max: f64) -> Vec3<f64> {
+    vec3(-p.y, p.x, 0.0) * phi_max
+}
+
+/// A point of a sphere, or beside it where that is a pole: there the azimuth is anyone's choice, and this is pbrt-v4's.
+#[inline(always)]
+fn off_pole(p: Vec3<f64>, r: f64) -> Vec3<f64> {
+    let pole = p.x == 0.0 && p.y == 0.0;
+    let [x, y] = if pole { [1e-5 * r, 0.0] } else { [p.x, p.y] };
+    vec3(x, y, p.z)
+}
+
+/// The derivative by the first texture coordinate at a point of a whole sphere.
+#[inline(always)]
+pub(super) fn around_sphere(p: Vec3<f64>, r: f64) -> Vec3<f64> {
+    around(off_pole(p, r), TAU)
+}
+
 /// The angle where a shape ends; whole turns are exact, so that no seam stays open.
 fn full(phi_max: f32) -> f64 {
     let phi = f64::from(phi_max).clamp(0.0, TAU);
@@ -145,17 +165,15 @@ impl Form {
     /// What is known of a point on the surface, or near it: it is first moved onto it, on a sphere from anywhere.
     #[inline]
     pub(super) fn local(&self, p: Vec3<f64>) -> Local {
-        let around = |p: Vec3<f64>, phi_max: f64| (share_of_turn(p, phi_max), vec3(-p.y, p.x, 0.0) * phi_max);
         match *self {
             Form::Sphere { .. } => self.local_of_normal(p.normalized()),
             Form::Cylinder { r, z, phi_max } => {
                 let rho = (p.x * p.x + p.y * p.y).sqrt();
                 let n = vec3(p.x / rho, p.y / rho, 0.0);
                 let p = vec3(n.x * r, n.y * r, p.z);
-                let (u, dpdu) = around(p, phi_max);
                 let range = z[1] - z[0];
-                let uv = [u, ((p.z - z[0]) / range) as f32];
-                Local { p, n, uv, dpdu, dpdv: vec3(0.0, 0.0, range) }
+                let uv = [share_of_turn(p, phi_max), ((p.z - z[0]) / range) as f32];
+                Local { p, n, uv, dpdu: around(p, phi_max), dpdv: vec3(0.0, 0.0, range) }
             }
             Form::Disk { height, r, inner, phi_max } => {
                 let p = vec3(p.x, p.y, height);
@@ -177,8 +195,7 @@ impl Form {
             return Local { p: n, n, uv: [0.0; 2], dpdu: n, dpdv: n };
         };
         let p = n * r;
-        // At a pole the azimuth is anyone's choice; this is pbrt-v4's.
-        let near = if p.x == 0.0 && p.y == 0.0 { vec3(1e-5 * r, 0.0, p.z) } else { p };
+        let near = off_pole(p, r);
         let range = theta[1] - theta[0];
         let rho = (near.x * near.x + near.y * near.y).sqrt();
         let v = (Real::atan2(rho as f32, p.z as f32) - theta[0] as f32) / range as f32;
@@ -187,7 +204,7 @@ impl Form {
             p,
             n,
             uv: [share_of_turn(near, phi_max), v],
-            dpdu: vec3(-near.y, near.x, 0.0) * phi_max,
+            dpdu: around(near, phi_max),
             dpdv: vec3(slope * near.x, slope * near.y, -rho) * range,
         }
     }

@@ -4,11 +4,13 @@
 
 mod affine;
 mod ball;
+mod columns;
 mod form;
 mod sampling;
 
 use affine::Affine;
 use ball::Ball;
+pub(crate) use columns::MIN_MANY;
 use form::{Form, Local};
 use sparrow_math::{Aabb, Transform, Vec3, vec3};
 
@@ -30,6 +32,13 @@ pub(crate) struct Quadric {
     ball: Option<Ball>,
     /// World-space area.
     area: f64,
+}
+
+/// Bound of the rounding error of a world-space point on the surface.
+#[inline(always)]
+fn p_error(p: Vec3<f64>) -> Vec3<f32> {
+    // Everything but the last rounding is done in double precision; that one errs by half of this.
+    (p.abs() * f64::from(f32::EPSILON)).to_f32() + Vec3::splat(f32::MIN_POSITIVE)
 }
 
 impl Quadric {
@@ -129,16 +138,11 @@ impl Quadric {
         self.form.local_of_normal(self.to_object.vector(out) * ball.scale)
     }
     /// The point of a ball in direction `out` from its centre, and its normal there, in the world.
-    #[inline]
+    #[inline(always)]
     fn on_ball(&self, ball: &Ball, out: Vec3<f64>) -> (Vec3<f64>, Vec3<f64>) {
         (ball.center + out * ball.radius, if self.flip { -out } else { out })
     }
 
-    /// Bound of the rounding error of a world-space point on the surface.
-    fn p_error(p: Vec3<f64>) -> Vec3<f32> {
-        // Everything but the last rounding is done in double precision; that one errs by half of this.
-        (p.abs() * f64::from(f32::EPSILON)).to_f32() + Vec3::splat(f32::MIN_POSITIVE)
-    }
     /// Unit normal in world space, turned as the orientation says.
     fn world_normal(&self, n: Vec3<f64>) -> Vec3<f64> {
         let n = self.to_object.transposed(n).normalized();
@@ -162,7 +166,7 @@ impl Quadric {
         let dpdu = self.to_world.vector(l.dpdu).to_f32();
         SurfacePoint {
             p: p.to_f32(),
-            p_error: Self::p_error(p),
+            p_error: p_error(p),
             ng,
             ns: ng,
             dpdu,

@@ -2,7 +2,7 @@
 
 use sparrow_math::Vec3;
 
-use super::Quadric;
+use super::{Quadric, p_error};
 use crate::point::ShapeSample;
 use crate::sample::{Draw, SampleColumns, Viewpoint, seen_from};
 
@@ -39,7 +39,7 @@ impl Quadric {
         let (p, n) = (self.to_world.point(l.p), self.world_normal(l.n));
         Some(ShapeSample {
             p: p.to_f32(),
-            p_error: Self::p_error(p),
+            p_error: p_error(p),
             n: n.to_f32(),
             wi: Vec3::splat(0.0),
             distance: 0.0,

@@ -97,6 +97,7 @@ impl Triangles {
         Corners { p: pick(&m.p, at), n: of(&m.n), s: of(&m.s), uv: texture_coordinates(&m.uv, at) }
     }
     /// The surface at a hit; meanings as in pbrt-v4.
+    #[inline]
     pub(crate) fn surface(&self, hit: &Hit) -> SurfacePoint {
         self.with_corners(hit.prim).surface(self.flip, hit)
     }

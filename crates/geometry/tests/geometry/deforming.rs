@@ -19,7 +19,7 @@ fn between<const N: usize>(start: &[[f32; N]], end: &[[f32; N]], time: f32) -> V
 }
 
 /// The shape as it stands at a time.
-fn still(s: &ShapeInstance, time: f32) -> ShapeInstance {
+pub(crate) fn still(s: &ShapeInstance, time: f32) -> ShapeInstance {
     let shape = match s.shape.clone() {
         Shape::Triangles(m) => Shape::Triangles(TriangleMesh {
             p: between(&m.p, &m.p_end, time),
@@ -53,7 +53,7 @@ fn moved(rng: &mut Rng, p: &[[f32; 3]], by: f32) -> Vec<[f32; 3]> {
 }
 
 /// Loose triangles with normals, tangents and texture coordinates.
-fn mesh(rng: &mut Rng, n: u32) -> ShapeInstance {
+pub(crate) fn mesh(rng: &mut Rng, n: u32) -> ShapeInstance {
     let Shape::Triangles(mut m) = triangles(rng, n, 0.25).shape else { unreachable!() };
     m.p_end = moved(rng, &m.p, 0.4);
     m.n = m.p.iter().map(|_| rng.direction().to_array()).collect();
@@ -63,7 +63,7 @@ fn mesh(rng: &mut Rng, n: u32) -> ShapeInstance {
     placed(Shape::Triangles(m))
 }
 
-fn patches(rng: &mut Rng, n: u32) -> ShapeInstance {
+pub(crate) fn patches(rng: &mut Rng, n: u32) -> ShapeInstance {
     let Shape::Patches(mut m) = super::patches(rng, n, 0.4).shape else { unreachable!() };
     m.p_end = moved(rng, &m.p, 0.3);
     m.n = m.p.iter().map(|_| rng.direction().to_array()).collect();
@@ -72,7 +72,7 @@ fn patches(rng: &mut Rng, n: u32) -> ShapeInstance {
 }
 
 /// Strands that wander, their points and radii at both ends.
-fn curves(rng: &mut Rng, kind: CurveKind, basis: CurveBasis) -> ShapeInstance {
+pub(crate) fn curves(rng: &mut Rng, kind: CurveKind, basis: CurveBasis) -> ShapeInstance {
     const STRANDS: u32 = 12;
     const POINTS: u32 = 13;
     let (mut points, mut points_end) = (Vec::new(), Vec::new());

@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "tests stop where something is missing")]
 
 mod build;
+mod columns;
 mod curves;
 mod deforming;
 mod exact;
