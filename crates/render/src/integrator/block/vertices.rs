@@ -1,6 +1,7 @@
 //! What is known of the vertices of a batch: [`Vertices`].
 
-use sparrow_geometry::{Hit, SurfacePoint};
+use sparrow_geometry::{Hit, SurfaceColumns, SurfaceParts, SurfacePoint};
+use sparrow_models::ModelKind;
 use sparrow_spectra::N_LAMBDA;
 
 use super::column::{Column, Rounded, pad, put_spectrum, put_vector, vector};
@@ -33,6 +34,10 @@ pub(super) struct Vertices {
     pub(super) ways: Column,
 }
 
+fn slices<const N: usize>(columns: &mut [Column; N]) -> [&mut [f32]; N] {
+    columns.each_mut().map(|c| &mut c[..])
+}
+
 impl Vertices {
     pub(super) fn len(&self) -> usize {
         self.path.len()
@@ -59,28 +64,23 @@ impl Vertices {
             put_spectrum(&mut self.beta, k, paths.beta[i]);
             self.eta_scale[k] = paths.eta_scale[i];
             self.ways[k] = how.ways_on(paths.depth[i]);
-            if let Some(hit) = &hits[i] {
-                self.put(k, &scene.geometry().surface(&paths.ray[i], hit));
-            }
         }
+        let fibre = matches!(material.kind, ModelKind::Fibre(_));
+        let parts = SurfaceParts { uv: material.textured || fibre, derivatives: material.textured };
+        scene.geometry().surface_many(&paths.ray, hits, which, parts, &mut self.surface());
         let n = which.len();
         let vectors = [&mut self.at.p, &mut self.ns, &mut self.tangent, &mut self.wo].into_iter().flatten();
         vectors.chain(&mut self.nm).for_each(|c| pad(c, n));
     }
 
-    #[inline(always)]
-    fn put(&mut self, k: usize, point: &SurfacePoint) {
-        put_vector(&mut self.at.p, k, point.p);
-        put_vector(&mut self.at.p_error, k, point.p_error);
-        put_vector(&mut self.at.n, k, point.ng);
-        put_vector(&mut self.ns, k, point.ns);
-        put_vector(&mut self.tangent, k, point.tangent);
-        put_vector(&mut self.dpdu, k, point.dpdu);
-        put_vector(&mut self.dpdv, k, point.dpdv);
-        self.uv.iter_mut().zip(point.uv).for_each(|(column, x)| column[k] = x);
+    fn surface(&mut self) -> SurfaceColumns<'_> {
+        let [p, p_error, ng] = [&mut self.at.p, &mut self.at.p_error, &mut self.at.n].map(slices);
+        let [ns, tangent] = [&mut self.ns, &mut self.tangent].map(slices);
+        let [dpdu, dpdv] = [&mut self.dpdu, &mut self.dpdv].map(slices);
+        SurfaceColumns { p, p_error, ng, ns, tangent, dpdu, dpdv, uv: slices(&mut self.uv) }
     }
 
-    /// A vertex as a point of a surface.
+    /// A vertex as a point of a surface; of texture coordinates and derivatives, only what the material asks for.
     pub(super) fn point(&self, k: usize, hit: &Hit, time: f32) -> SurfacePoint {
         SurfacePoint {
             p: vector(&self.at.p, k),
