@@ -4,6 +4,7 @@ mod bounds;
 mod build;
 mod eight;
 mod environment;
+mod few;
 mod group;
 mod portal;
 mod selection;
@@ -21,6 +22,7 @@ use portal::Portal;
 
 pub use build::LightBuild;
 pub use environment::{Environment, EnvironmentColour};
+pub(crate) use few::LitPoints;
 pub use selection::LightSelection;
 
 /// Marks shapes that emit nothing.
@@ -178,6 +180,11 @@ impl Lights {
     #[inline]
     pub fn choose(&self, at: &LitPoint, u: f32) -> Option<(u32, f32)> {
         self.selection.choose(at, u)
+    }
+    /// [`choose`](Self::choose) for each of `points`, to the bit.
+    #[inline]
+    pub(crate) fn choose_many(&self, points: &LitPoints<'_>, put: impl FnMut(usize, Option<(u32, f32)>)) {
+        self.selection.choose_many(points, put);
     }
     /// The probability with which [`choose`](Self::choose) picks that light.
     #[inline]

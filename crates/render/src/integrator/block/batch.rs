@@ -95,21 +95,18 @@ impl<'a> Batch<'a> {
 
     /// Samples a light at each vertex.
     pub(super) fn sample_lights<R>(&mut self, scene: &Scene, how: &PathIntegrator, paths: &mut Paths<'_, R>) {
-        let (vertices, numbers) = (&*self.vertices, &mut self.columns.numbers);
-        self.lights.clear(scene.lights().len(), vertices.len());
+        let (vertices, numbers, n) = (&*self.vertices, &mut self.columns.numbers, self.vertices.len());
+        self.lights.clear(n);
         for (k, &path) in vertices.path.iter().enumerate() {
             let i = path as usize;
             let turn = how.mis.turn(numbers.light[k]);
-            paths.looks[i] = turn.bsdf;
+            (paths.looks[i], numbers.light[k]) = (turn.bsdf, turn.u);
             // The light of a first vertex belongs to the first way on.
-            if turn.light && (paths.depth[i] > 0 || paths.way[i] == 0) {
-                if let Some((light, probability)) = scene.lights().choose(&vertices.lit_point(k), turn.u) {
-                    self.lights.choose(k, light, probability);
-                }
-            }
+            self.lights.asked[k] = turn.light && (paths.depth[i] > 0 || paths.way[i] == 0);
         }
-        numbers.on_light.iter_mut().for_each(|c| pad(c, vertices.len()));
-        self.n_lit = self.lights.sample(scene, &paths.lambda, vertices, &numbers.on_light);
+        numbers.on_light.iter_mut().for_each(|c| pad(c, n));
+        pad(&mut numbers.light, n);
+        self.n_lit = self.lights.sample(scene, &paths.lambda, vertices, (&numbers.light, &numbers.on_light));
     }
 
     /// Evaluates the parameters of the material, and turns directions to local frames.

@@ -8,13 +8,17 @@ use super::batch::FEW;
 use super::column::{BATCH, Column, Rounded, pad, padded, put_spectrum, put_vector};
 use super::groups::Groups;
 use super::vertices::Vertices;
-use crate::light::{LightSample, Target};
+use crate::light::{LightSample, LitPoints, NO_LIGHT, Target};
 use crate::scene::Scene;
 
 /// One light sample a vertex, in columns.
 #[derive(Default)]
 pub(super) struct LightSamples {
-    /// Of the choice of the light.
+    /// A light is to be sampled at the vertex.
+    pub(super) asked: Vec<bool>,
+    /// The light that was chosen, or [`NO_LIGHT`].
+    light: Vec<u32>,
+    /// Of that choice.
     probability: Column,
     by_light: Groups,
     /// To the light, unit.
@@ -28,12 +32,12 @@ pub(super) struct LightSamples {
     pub(super) end: Rounded,
     /// 1 where it has no end, else 0.
     pub(super) endless: Column,
-    some: Box<Some>,
+    chosen: Box<Chosen>,
 }
 
-/// Some of the vertices, put together, and what is sampled there.
+/// Vertices that chose the same light, put together, and what is sampled there.
 #[derive(Default)]
-struct Some {
+struct Chosen {
     p: [Column; 3],
     n: [Column; 3],
     u: [Column; 2],
@@ -47,50 +51,88 @@ struct Some {
 }
 
 impl LightSamples {
-    /// Forgets all; lights are below `n_lights`, vertices below `n`.
-    pub(super) fn clear(&mut self, n_lights: usize, n: usize) {
-        self.by_light.clear(n_lights);
+    /// Forgets all; there are `n` vertices.
+    pub(super) fn clear(&mut self, n: usize) {
+        self.asked.clear();
+        self.asked.resize(n, false);
         self.pdf[..padded(n)].fill(0.0);
     }
-    /// A light was chosen for a vertex.
-    pub(super) fn choose(&mut self, vertex: usize, light: u32, probability: f32) {
-        self.probability[vertex] = probability;
-        self.by_light.push(light, 0, vertex as u32);
-    }
 
-    /// Samples the lights that were chosen, by the uniform numbers `u`. Returns how far vertices with light go.
+    /// Samples a light at each vertex where it is asked, by uniform numbers for the choice and for a point of the light. Returns how far
+    /// vertices with light go.
     pub(super) fn sample(
         &mut self,
         scene: &Scene,
         lambda: &[Wavelengths],
         vertices: &Vertices,
-        u: &[Column; 2],
+        (choice, u): (&Column, &[Column; 2]),
     ) -> usize {
-        self.by_light.sort(BATCH, false);
-        let (lights, geometry) = (scene.lights(), scene.geometry());
-        let by_light = core::mem::take(&mut self.by_light);
-        let mut end = 0;
-        for (light, chosen) in (0..by_light.len()).map(|i| by_light.batch(i)) {
-            end = end.max(chosen.last().map_or(0, |k| *k as usize + 1));
-            let lanes = chosen.len() >= FEW && lights.samples_in_lanes(geometry, light);
-            if lanes && chosen.len() == vertices.len() {
-                self.at_all(scene, light, vertices, u);
-            } else if lanes {
-                self.at_some(scene, (light, chosen), vertices, u);
-            } else {
-                for k in chosen.iter().map(|k| *k as usize) {
-                    let (at, u) = (vertices.lit_point(k), [u[0][k], u[1][k]]);
-                    let w = &lambda[vertices.path[k] as usize];
-                    if let Some(s) = lights.sample(geometry, light, &at, u, w) {
-                        self.put(k, &s);
-                    }
+        let n = vertices.len();
+        self.choose(scene, vertices, choice);
+        let end = self.light.iter().rposition(|light| *light != NO_LIGHT).map_or(0, |k| k + 1);
+        let (first, lights) = (self.light[0], scene.lights());
+        let in_lanes = |light: u32, n: usize| n >= FEW && lights.samples_in_lanes(scene.geometry(), light);
+        if first != NO_LIGHT && self.light.iter().all(|light| *light == first) && in_lanes(first, n) {
+            self.at_all(scene, first, vertices, u);
+        } else {
+            self.put_together(lights.len());
+            let by_light = core::mem::take(&mut self.by_light);
+            for (light, chosen) in (0..by_light.len()).map(|i| by_light.batch(i)) {
+                if in_lanes(light, chosen.len()) {
+                    self.at_some(scene, (light, chosen), vertices, u);
+                } else {
+                    self.one_by_one(scene, (light, chosen), (lambda, vertices), u);
                 }
             }
+            self.by_light = by_light;
         }
-        self.by_light = by_light;
         let weighted = self.pdf.iter_mut().zip(self.probability.iter());
         weighted.take(end).for_each(|(pdf, probability)| *pdf *= probability);
         end
+    }
+
+    /// Chooses a light for each vertex.
+    fn choose(&mut self, scene: &Scene, vertices: &Vertices, u: &Column) {
+        let n = vertices.len();
+        self.light.clear();
+        self.light.resize(n, NO_LIGHT);
+        let points = LitPoints {
+            p: vertices.at.p.each_ref().map(|c| &c[..padded(n)]),
+            n: vertices.ns.each_ref().map(|c| &c[..padded(n)]),
+            u: &u[..padded(n)],
+            n_points: n,
+        };
+        let (light, probability) = (&mut self.light, &mut self.probability);
+        scene.lights().choose_many(&points, |k, chosen| {
+            if let (Some((chosen, share)), true) = (chosen, self.asked[k]) {
+                (light[k], probability[k]) = (chosen, share);
+            }
+        });
+    }
+    /// Groups the vertices by light.
+    fn put_together(&mut self, n_lights: usize) {
+        self.by_light.clear(n_lights);
+        for (k, &light) in self.light.iter().enumerate().filter(|(_, light)| **light != NO_LIGHT) {
+            self.by_light.push(light, 0, k as u32);
+        }
+        self.by_light.sort(BATCH, false);
+    }
+
+    /// One light at the vertices `chosen`, without lanes.
+    fn one_by_one(
+        &mut self,
+        scene: &Scene,
+        (light, chosen): (u32, &[u32]),
+        (lambda, vertices): (&[Wavelengths], &Vertices),
+        u: &[Column; 2],
+    ) {
+        for k in chosen.iter().map(|k| *k as usize) {
+            let (at, u) = (vertices.lit_point(k), [u[0][k], u[1][k]]);
+            let w = &lambda[vertices.path[k] as usize];
+            if let Some(s) = scene.lights().sample(scene.geometry(), light, &at, u, w) {
+                self.put(k, &s);
+            }
+        }
     }
 
     /// One light at all vertices.
@@ -100,7 +142,7 @@ impl LightSamples {
             padded(n),
             (&vertices.at.p, &vertices.ns, u),
             (&mut self.end.p, &mut self.end.n, &mut self.wi),
-            (&mut self.some.distance, &mut self.pdf),
+            (&mut self.chosen.distance, &mut self.pdf),
         );
         let (nm, radiance) = (vertices.nm.each_ref().map(|c| &c[..]), &mut self.radiance);
         let radiance = radiance.each_mut().map(|c| &mut c[..]);
@@ -119,7 +161,7 @@ impl LightSamples {
         vertices: &Vertices,
         u: &[Column; 2],
     ) {
-        let (n, some) = (chosen.len(), &mut *self.some);
+        let (n, some) = (chosen.len(), &mut *self.chosen);
         gather(chosen, &vertices.at.p, &mut some.p);
         gather(chosen, &vertices.ns, &mut some.n);
         gather(chosen, u, &mut some.u);

@@ -43,6 +43,8 @@ pub(crate) struct Block<'a, R> {
     fresh: Fresh<'a>,
     paths: Paths<'a, R>,
     families: Families,
+    /// Places of paths that have ended, in order.
+    ended: Vec<u32>,
     hits: Vec<Option<Hit>>,
     groups: Groups,
     batch: Batch<'a>,
@@ -56,6 +58,7 @@ impl<R: Record + Default> Default for Block<'_, R> {
             fresh: Fresh::default(),
             paths: Paths::default(),
             families: Families::default(),
+            ended: Vec::new(),
             hits: Vec::new(),
             groups: Groups::default(),
             batch: Batch::default(),
@@ -105,15 +108,19 @@ impl<'a, R: Record + Default> Block<'a, R> {
         sampler: &'a Sampler,
         samples: &mut impl Iterator<Item = ([u32; 2], u32)>,
     ) -> bool {
-        let mut room = N_PATHS.saturating_sub(self.paths.len()) / how.splits as usize;
+        let under_way = self.paths.len() - self.ended.len();
+        let mut room = N_PATHS.saturating_sub(under_way) / how.splits as usize;
         while room > 0 && self.fresh.draw(scene, sampler, plan, &mut samples.take(room)) {
             for (sampler, start) in self.fresh.iter(scene, plan) {
                 let family = if how.splits > 1 { self.families.push(start.place) } else { 0 };
-                self.paths.push(sampler, start, family);
+                let place = self.ended.pop().map_or(self.paths.len(), |i| i as usize);
+                self.paths.put(place, sampler, start, family);
                 self.rays.camera += 1;
                 room -= 1;
             }
         }
+        // From the end, so that what takes the place of a path is under way.
+        self.ended.drain(..).rev().for_each(|i| self.paths.remove(i as usize));
         self.paths.len() > 0
     }
 
@@ -184,14 +191,14 @@ impl<'a, R: Record + Default> Block<'a, R> {
         self.groups.sort(BATCH, sampler.has_tables());
     }
 
-    /// Hands over the light of paths that have ended, and forgets them.
+    /// Hands over the light of paths that have ended, whose places are free.
     fn film<T: TileObserver<Record = R>>(&mut self, tile: &mut Exposed<'_, T>) {
         let paths = &mut self.paths;
-        // From the end, so that what takes the place of a path has been looked at.
-        for i in (0..paths.len()).rev() {
+        for i in 0..paths.len() {
             if !paths.ended[i] {
                 continue;
             }
+            self.ended.push(i as u32);
             if tile.how.splits == 1 {
                 tile.take(paths.place[i], paths.l[i], &paths.lambda[i], &paths.record[i]);
             } else {
@@ -200,7 +207,6 @@ impl<'a, R: Record + Default> Block<'a, R> {
                     tile.take_parts(place, parts);
                 }
             }
-            paths.remove(i);
         }
     }
 }

@@ -30,6 +30,15 @@ pub(super) struct Paths<'a, R> {
     pub(super) record: Vec<R>,
 }
 
+/// Writes the number of a path, or of one more.
+#[inline(always)]
+fn put<T>(column: &mut Vec<T>, i: usize, value: T) {
+    match column.get_mut(i) {
+        Some(place) => *place = value,
+        None => column.push(value),
+    }
+}
+
 impl<R> Default for Paths<'_, R> {
     fn default() -> Self {
         Paths {
@@ -57,30 +66,30 @@ impl<'a, R: Record + Default> Paths<'a, R> {
         self.ray.len()
     }
 
-    /// A new path.
-    pub(super) fn push(&mut self, sampler: PixelSampler<'a>, start: CameraSample, family: u32) {
-        self.place.push(start.place);
-        self.sampler.push(sampler);
-        self.lambda.push(start.lambda);
-        self.ray.push(start.ray);
-        self.l.push(Spectrum::ZERO);
-        self.beta.push(Spectrum::ONE);
-        self.eta_scale.push(1.0);
-        self.last.push(None);
-        self.depth.push(0);
-        self.way.push(0);
-        self.family.push(family);
-        self.n_smooth.push(0);
-        self.looks.push(true);
-        self.ended.push(false);
-        self.record.push(R::default());
+    /// A new path in place `i`, the first one that is empty or one whose path has ended.
+    pub(super) fn put(&mut self, i: usize, sampler: PixelSampler<'a>, start: CameraSample, family: u32) {
+        put(&mut self.place, i, start.place);
+        put(&mut self.sampler, i, sampler);
+        put(&mut self.lambda, i, start.lambda);
+        put(&mut self.ray, i, start.ray);
+        put(&mut self.l, i, Spectrum::ZERO);
+        put(&mut self.beta, i, Spectrum::ONE);
+        put(&mut self.eta_scale, i, 1.0);
+        put(&mut self.last, i, None);
+        put(&mut self.depth, i, 0);
+        put(&mut self.way, i, 0);
+        put(&mut self.family, i, family);
+        put(&mut self.n_smooth, i, 0);
+        put(&mut self.looks, i, true);
+        put(&mut self.ended, i, false);
+        put(&mut self.record, i, R::default());
     }
 
     /// Another way on from the first vertex of path `i`; what the path has found up to there stays with the first.
     pub(super) fn branch(&mut self, i: usize, way: u32, sampler: PixelSampler<'a>) {
         let lambda = self.lambda[i];
         let start = CameraSample { place: self.place[i], lambda, ray: self.ray[i] };
-        self.push(sampler, start, self.family[i]);
+        self.put(self.len(), sampler, start, self.family[i]);
         if let Some(last) = self.way.last_mut() {
             *last = way;
         }
