@@ -78,6 +78,11 @@ impl LightSelection {
             {
                 few.choose_many(points, put);
             }
+            LightSelection::ByPlace(ByPlace { bounded: Bounded::One(light), infinite })
+                if infinite.is_empty() =>
+            {
+                (0..points.n_points).for_each(|k| put(k, Some((*light, 1.0))));
+            }
             LightSelection::ByPlace(_) | LightSelection::Fixed(_) | LightSelection::Empty => {
                 (0..points.n_points).for_each(|k| put(k, self.choose(&points.get(k), points.u[k])));
             }

@@ -1,6 +1,6 @@
 //! Vertices of one material, worked off together: [`Batch`].
 
-use sparrow_geometry::{Hit, Ray};
+use sparrow_geometry::Hit;
 use sparrow_math::in_lanes;
 use sparrow_models::ModelKind;
 use sparrow_models::batch::{DirColumns, EvalColumns, SampleColumns, f_cos_pdf, sample};
@@ -9,7 +9,7 @@ use sparrow_spectra::{N_LAMBDA, Wavelengths};
 use super::column::{Column, pad, padded, put_spectrum, put_vector, spectrum, vector};
 use super::lanes::{ToLocal, ToWorld};
 use super::lights::LightSamples;
-use super::onward::{Directions, Next, Onward};
+use super::onward::{Decide, Directions, Next, Onward};
 use super::paths::Paths;
 use super::shadow::Shadows;
 use super::vertices::Vertices;
@@ -19,7 +19,7 @@ use crate::material::{MaterialColumns, Points};
 use crate::roulette::Roulette;
 use crate::sampler::{PixelSampler, Sampler};
 use crate::scatter::{Density, Scatter};
-use crate::scene::{LastVertex, Scene, fibre_offset};
+use crate::scene::{Scene, fibre_offset};
 use crate::texture::TextureContext;
 
 /// Fewer vertices than this are worked off one by one.
@@ -97,10 +97,15 @@ impl<'a> Batch<'a> {
     pub(super) fn sample_lights<R>(&mut self, scene: &Scene, how: &PathIntegrator, paths: &mut Paths<'_, R>) {
         let (vertices, numbers, n) = (&*self.vertices, &mut self.columns.numbers, self.vertices.len());
         self.lights.clear(n);
+        let looks = how.mis.turn(0.0);
         for (k, &path) in vertices.path.iter().enumerate() {
             let i = path as usize;
-            let turn = how.mis.turn(numbers.light[k]);
-            (paths.looks[i], numbers.light[k]) = (turn.bsdf, turn.u);
+            let mut turn = looks;
+            if how.mis.takes_turns() {
+                turn = how.mis.turn(numbers.light[k]);
+                numbers.light[k] = turn.u;
+            }
+            paths.looks[i] = turn.bsdf;
             // The light of a first vertex belongs to the first way on.
             self.lights.asked[k] = turn.light && (paths.depth[i] > 0 || paths.way[i] == 0);
         }
@@ -177,7 +182,7 @@ impl<'a> Batch<'a> {
     pub(super) fn scatter<'b, R: Record + Default>(
         &mut self,
         paths: &mut Paths<'_, R>,
-        roulette: impl Fn([u32; 2]) -> Roulette<'b>,
+        roulette: Option<impl Fn([u32; 2]) -> Roulette<'b>>,
     ) {
         let (columns, vertices, n) = (&mut *self.columns, &*self.vertices, self.vertices.len());
         match self.kind {
@@ -185,31 +190,23 @@ impl<'a> Batch<'a> {
             None => columns.sample_alone(&self.models, vertices),
         }
         let Columns { drawn, next, numbers, .. } = columns;
-        in_lanes(Onward { n: padded(n), vertices, drawn, next });
+        let n = padded(n);
+        in_lanes(Onward { n, vertices, drawn, next });
+        if let Some(roulette) = roulette {
+            for (k, &path) in vertices.path.iter().enumerate() {
+                let (p, beta) = (vector(&vertices.at.p, k), spectrum(&next.beta, k));
+                let here = roulette(paths.place[path as usize].pixel);
+                next.survival[k] = here.at_least(next.survival[k], p, beta);
+            }
+        }
+        in_lanes(Decide { n, depth: &vertices.depth, u: &numbers.roulette, next });
         for (k, &path) in vertices.path.iter().enumerate() {
             let i = path as usize;
-            let p = vector(&vertices.at.p, k);
-            let mut beta = spectrum(&next.beta, k);
-            let survival = roulette(paths.place[i].pixel).at_least(next.survival[k], p, beta);
-            let ends = survival < 1.0 && paths.depth[i] > 0 && numbers.roulette[k] >= survival;
-            if !(next.drawn[k] > 0.0) || ends {
+            if next.goes_on[k] > 0.0 {
+                paths.go_on(i, vertices, drawn, next, k);
+            } else {
                 paths.ended[i] = true;
-                continue;
             }
-            if survival < 1.0 && paths.depth[i] > 0 {
-                beta *= 1.0 / survival;
-            }
-            paths.beta[i] = beta;
-            paths.eta_scale[i] = next.eta_scale[k];
-            paths.last[i] = (drawn.delta[k] <= 0.0).then(|| {
-                paths.n_smooth[i] += 1;
-                let pdf = if paths.looks[i] { vertices.ways[k] * drawn.density[k] } else { 0.0 };
-                LastVertex { at: vertices.lit_point(k), pdf }
-            });
-            let time = paths.ray[i].time;
-            paths.ray[i] = Ray { time, ..Ray::new(vector(&next.o, k), vector(&drawn.wi, k)) };
-            paths.depth[i] += 1;
-            paths.record[i].goes_on(p, beta);
         }
     }
 }

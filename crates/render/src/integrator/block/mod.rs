@@ -90,7 +90,7 @@ impl<'a, R: Record + Default> Block<'a, R> {
                 self.batch.sample_lights(scene, &how, &mut self.paths);
                 self.batch.bind(scene, (&mut self.paths, &self.hits), key);
                 self.batch.direct(&how, &self.paths, &mut self.shadows);
-                self.batch.scatter(&mut self.paths, |pixel| tile.roulette(pixel));
+                self.batch.scatter(&mut self.paths, tile.learned.map(|_| |pixel| tile.roulette(pixel)));
             }
             self.rays.shadow += self.shadows.trace(scene, &mut self.paths);
             self.film(tile);

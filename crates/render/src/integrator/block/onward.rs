@@ -30,10 +30,10 @@ pub(super) struct Next {
     pub(super) o: [Column; 3],
     pub(super) beta: [Column; N_LAMBDA],
     pub(super) eta_scale: Column,
-    /// Probability to go on, by throughput.
+    /// Probability to go on.
     pub(super) survival: Column,
-    /// 1 where a direction was drawn, else 0.
-    pub(super) drawn: Column,
+    /// 1 where a path goes on, else 0.
+    pub(super) goes_on: Column,
 }
 
 /// Takes `n` paths from their vertices along the directions that were drawn.
@@ -55,13 +55,36 @@ impl InLanes for Onward<'_> {
             let (ways, eta) = (load::<R>(&vertices.ways, k), load::<R>(&drawn.eta, k));
             let before: (Spectrum<R>, R) = (spectrum(&vertices.beta, k), load(&vertices.eta_scale, k));
             let (beta, eta_scale) = carried(before, weight, eta, ways);
-            let survival = by_throughput((beta * eta_scale).max_value());
             let origin = vertices.at.get::<R>(k).towards(vector(&drawn.wi, k));
             store_vector(origin, &mut next.o, k);
             store_spectrum(beta, &mut next.beta, k);
             eta_scale.store(&mut next.eta_scale[..], k);
-            survival.store(&mut next.survival[..], k);
-            R::ONE.only_where(density.gt(R::ZERO) & finite).store(&mut next.drawn[..], k);
+            by_throughput((beta * eta_scale).max_value()).store(&mut next.survival[..], k);
+            R::ONE.only_where(density.gt(R::ZERO) & finite).store(&mut next.goes_on[..], k);
+        }
+    }
+}
+
+/// Ends paths behind their first vertex by roulette, and lets the others carry more.
+pub(super) struct Decide<'a> {
+    pub(super) n: usize,
+    pub(super) depth: &'a Column,
+    /// Uniform numbers.
+    pub(super) u: &'a Column,
+    pub(super) next: &'a mut Next,
+}
+
+impl InLanes for Decide<'_> {
+    type Output = ();
+    #[inline(always)]
+    fn run<R: Real>(self) {
+        let Decide { n, depth, u, next } = self;
+        for k in (0..n).step_by(R::WIDTH) {
+            let (survival, beta) = (load::<R>(&next.survival, k), spectrum::<R>(&next.beta, k));
+            let asked = survival.lt(R::ONE) & load::<R>(depth, k).gt(R::ZERO);
+            let ends = asked & load::<R>(u, k).ge(survival);
+            store_spectrum(Spectrum::select(asked, beta * (R::ONE / survival), beta), &mut next.beta, k);
+            load::<R>(&next.goes_on, k).only_where(!ends).store(&mut next.goes_on[..], k);
         }
     }
 }

@@ -3,6 +3,9 @@
 use sparrow_geometry::Ray;
 use sparrow_spectra::{Spectrum, Wavelengths};
 
+use super::column::{spectrum, vector};
+use super::onward::{Directions, Next};
+use super::vertices::Vertices;
 use crate::integrator::start::FilmPlace;
 use crate::integrator::{CameraSample, Record};
 use crate::sampler::PixelSampler;
@@ -112,5 +115,23 @@ impl<'a, R: Record + Default> Paths<'a, R> {
         self.looks.swap_remove(i);
         self.ended.swap_remove(i);
         self.record.swap_remove(i);
+    }
+
+    /// Takes path `i` from vertex `k` of a batch along the direction that was drawn.
+    #[inline(always)]
+    pub(super) fn go_on(&mut self, i: usize, vertices: &Vertices, drawn: &Directions, next: &Next, k: usize) {
+        self.last[i] = None;
+        if drawn.delta[k] <= 0.0 {
+            self.n_smooth[i] += 1;
+            let pdf = if self.looks[i] { vertices.ways[k] * drawn.density[k] } else { 0.0 };
+            self.last[i] = Some(LastVertex { at: vertices.lit_point(k), pdf });
+        }
+        let beta = spectrum(&next.beta, k);
+        self.record[i].goes_on(vector(&vertices.at.p, k), beta);
+        self.beta[i] = beta;
+        self.eta_scale[i] = next.eta_scale[k];
+        self.depth[i] += 1;
+        let ray = &mut self.ray[i];
+        *ray = Ray { time: ray.time, ..Ray::new(vector(&next.o, k), vector(&drawn.wi, k)) };
     }
 }

@@ -30,6 +30,8 @@ pub(super) struct Vertices {
     /// What the path carries.
     pub(super) beta: [Column; N_LAMBDA],
     pub(super) eta_scale: Column,
+    /// Scattering events before.
+    pub(super) depth: Column,
     /// Directions that the vertex draws.
     pub(super) ways: Column,
 }
@@ -63,6 +65,7 @@ impl Vertices {
             self.nm.iter_mut().zip(paths.lambda[i].lambda).for_each(|(column, nm)| column[k] = nm);
             put_spectrum(&mut self.beta, k, paths.beta[i]);
             self.eta_scale[k] = paths.eta_scale[i];
+            self.depth[k] = paths.depth[i] as f32;
             self.ways[k] = how.ways_on(paths.depth[i]);
         }
         let fibre = matches!(material.kind, ModelKind::Fibre(_));
