@@ -10,7 +10,7 @@ mod sampling;
 
 use affine::Affine;
 use ball::Ball;
-pub(crate) use columns::MIN_MANY;
+pub(crate) use columns::Met;
 use form::{Form, Local};
 use sparrow_math::{Aabb, Transform, Vec3, vec3};
 
