@@ -61,6 +61,7 @@ impl Geometry {
                     ball.surface_many(&met, &mut block);
                 }
                 None => {
+                    self.ahead(hits, which);
                     for (k, &i) in which.iter().enumerate() {
                         if let Some(hit) = &hits[i as usize] {
                             self.put(&rays[i as usize], hit, k, &mut block, parts);
@@ -70,6 +71,21 @@ impl Geometry {
             }
             out.write(n * MAX_WIDTH, &block, parts);
         }
+    }
+    /// Asks for what the surface at these hits will read, where the first of them lies on a mesh.
+    #[inline(always)]
+    fn ahead(&self, hits: &[Option<Hit>], which: &[u32]) {
+        let hit = |i: &u32| hits[*i as usize].as_ref();
+        let mesh = |hit: &Hit| match self.body(hit.shape) {
+            Some(Body::Triangles(m)) => Some(m),
+            Some(_) | None => None,
+        };
+        if which.first().and_then(hit).and_then(mesh).is_none() {
+            return;
+        }
+        let met = || which.iter().filter_map(hit).filter_map(|hit| Some((mesh(hit)?, hit.prim)));
+        met().for_each(|(m, prim)| m.indices_ahead(prim));
+        met().for_each(|(m, prim)| m.corners_ahead(prim));
     }
     /// The surface at a hit, to place `k` of a block.
     #[inline(always)]

@@ -30,7 +30,6 @@ fn without(s: &ShapeInstance, part: usize) -> ShapeInstance {
     }
     ShapeInstance { shape: Shape::Triangles(m), flip_normal: part % 2 == 1, ..s.clone() }
 }
-}
 
 /// Shapes of every sort: standing and deforming, whole balls far and near, moved, turned and mirrored.
 fn shapes(rng: &mut Rng) -> Vec<ShapeInstance> {
