@@ -77,17 +77,10 @@ impl Turns {
 impl<S: Simd> Packet<S> {
     #[inline(always)]
     fn new(rays: &[Ray; RAYS]) -> Packet<S> {
-        // Numbers side by side: x y z of origins, of directions, and ends.
-        let mut columns = [[0.0; RAYS]; 7];
-        for (i, ray) in rays.iter().enumerate() {
-            let numbers = [ray.o.x, ray.o.y, ray.o.z, ray.d.x, ray.d.y, ray.d.z, ray.t_max];
-            for (column, x) in columns.iter_mut().zip(numbers) {
-                column[i] = x;
-            }
-        }
-        let [ox, oy, oz, dx, dy, dz, t_max] = &columns;
-        let o = [S::F8::load(ox), S::F8::load(oy), S::F8::load(oz)];
-        let d = [S::F8::load(dx), S::F8::load(dy), S::F8::load(dz)];
+        let row = |i: usize| rays[i].to_array();
+        let rows = [row(0), row(1), row(2), row(3), row(4), row(5), row(6), row(7)];
+        let [ox, oy, oz, dx, dy, dz, t_max, _] = S::columns(&rows);
+        let (o, d) = ([ox, oy, oz], [dx, dy, dz]);
         let turns = Turns::new::<S>(d);
         let d_k = turns.of::<S>(d);
         let sz = S::F8::splat(1.0) / d_k[2];
@@ -101,7 +94,7 @@ impl<S: Simd> Packet<S> {
             k: turns.k::<S>(),
             o_k: turns.of::<S>(o),
             s: [d_k[0] * sz, d_k[1] * sz, sz],
-            t_max: S::F8::load(t_max),
+            t_max,
             valid: valid & finite::<S>(d[0]) & finite::<S>(d[1]) & finite::<S>(d[2]),
         }
     }

@@ -7,10 +7,11 @@
 
 use core::arch::x86_64::{
     __m256, _CMP_LE_OQ, _CMP_LT_OQ, _MM_HINT_T0, _mm_loadu_ps, _mm_prefetch, _mm256_add_ps, _mm256_and_si256,
-    _mm256_andnot_ps, _mm256_blendv_ps, _mm256_broadcast_ps, _mm256_castps_si256, _mm256_castsi256_ps,
-    _mm256_cmp_ps, _mm256_cmpeq_epi32, _mm256_div_ps, _mm256_loadu_ps, _mm256_max_epi32, _mm256_max_ps,
-    _mm256_min_epi32, _mm256_min_ps, _mm256_movemask_ps, _mm256_mul_ps, _mm256_permutevar_ps,
-    _mm256_set1_epi32, _mm256_set1_ps, _mm256_setr_epi32, _mm256_storeu_ps, _mm256_sub_ps,
+    _mm256_andnot_ps, _mm256_blendv_ps, _mm256_broadcast_ps, _mm256_castps_si256, _mm256_castps128_ps256,
+    _mm256_castsi256_ps, _mm256_cmp_ps, _mm256_cmpeq_epi32, _mm256_div_ps, _mm256_insertf128_ps,
+    _mm256_loadu_ps, _mm256_max_epi32, _mm256_max_ps, _mm256_min_epi32, _mm256_min_ps, _mm256_movemask_ps,
+    _mm256_mul_ps, _mm256_permutevar_ps, _mm256_set1_epi32, _mm256_set1_ps, _mm256_setr_epi32,
+    _mm256_shuffle_ps, _mm256_storeu_ps, _mm256_sub_ps, _mm256_unpackhi_ps, _mm256_unpacklo_ps,
 };
 use core::ops::{Add, Div, Mul, Sub};
 
@@ -47,6 +48,14 @@ impl Simd for Avx2 {
     const EIGHT_IN_ONE: bool = true;
     type F4 = f32x4;
     type F8 = F8;
+    #[inline(always)]
+    fn columns(rows: &[[f32; 8]; 8]) -> [F8; 8] {
+        // Rows i and i + 4 in the halves of one register, so that nothing crosses between halves later.
+        let row = |i: usize| (F8::halves(&rows[i], &rows[i + 4], 0), F8::halves(&rows[i], &rows[i + 4], 4));
+        let [(a, e), (b, f), (c, g), (d, h)] = [row(0), row(1), row(2), row(3)];
+        let ([k0, k1, k2, k3], [k4, k5, k6, k7]) = (F8::columns(a, b, c, d), F8::columns(e, f, g, h));
+        [k0, k1, k2, k3, k4, k5, k6, k7]
+    }
 }
 
 /// Eight numbers in one register.
@@ -60,6 +69,33 @@ macro_rules! avx {
         // SAFETY: values of this type exist only where AVX2 was found, see the head of the module.
         unsafe { $e }
     };
+}
+
+impl F8 {
+    /// Four numbers of each of two rows, from number `at` on, which is 0 or 4.
+    #[inline(always)]
+    fn halves(low: &[f32; 8], high: &[f32; 8], at: usize) -> F8 {
+        let at = at & 4;
+        // SAFETY: four numbers follow in each row.
+        F8(avx!({
+            let low = _mm256_castps128_ps256(_mm_loadu_ps(low.as_ptr().add(at)));
+            _mm256_insertf128_ps::<1>(low, _mm_loadu_ps(high.as_ptr().add(at)))
+        }))
+    }
+    /// Transposes both halves, which are 4 x 4 each.
+    #[inline(always)]
+    fn columns(a: F8, b: F8, c: F8, d: F8) -> [F8; 4] {
+        avx!({
+            let (ab, cd) = (_mm256_unpacklo_ps(a.0, b.0), _mm256_unpacklo_ps(c.0, d.0));
+            let (ab2, cd2) = (_mm256_unpackhi_ps(a.0, b.0), _mm256_unpackhi_ps(c.0, d.0));
+            [
+                F8(_mm256_shuffle_ps::<0x44>(ab, cd)),
+                F8(_mm256_shuffle_ps::<0xee>(ab, cd)),
+                F8(_mm256_shuffle_ps::<0x44>(ab2, cd2)),
+                F8(_mm256_shuffle_ps::<0xee>(ab2, cd2)),
+            ]
+        })
+    }
 }
 
 macro_rules! operator {

@@ -49,6 +49,18 @@ pub(crate) trait Simd {
     const EIGHT_IN_ONE: bool;
     type F4: Floats<4>;
     type F8: Floats<8>;
+    /// Number k of each of eight rows, for each k.
+    #[inline(always)]
+    fn columns(rows: &[[f32; 8]; 8]) -> [Self::F8; 8] {
+        let mut columns = [[0.0; 8]; 8];
+        for (i, row) in rows.iter().enumerate() {
+            for (column, x) in columns.iter_mut().zip(row) {
+                column[i] = *x;
+            }
+        }
+        let column = |k: usize| Self::F8::load(&columns[k]);
+        [column(0), column(1), column(2), column(3), column(4), column(5), column(6), column(7)]
+    }
 }
 
 /// Something to be computed with a vector unit that is only known when the program runs.
