@@ -5,7 +5,7 @@
 //! before its leaf's box, or where a triangle has to be settled in double precision: such rays are asked anew one by one.
 
 use super::block::{RawHit, gamma};
-use super::few::{Few, FewTriangle, MAX_VERTICES, Other};
+use super::few::{Few, MAX_VERTICES, Other, Pair};
 use super::ray_data::{PAD, TINY_INV};
 use super::traverse::Others;
 use crate::ray::Ray;
@@ -185,7 +185,7 @@ fn stand_in<S: Simd>(d: S::F8) -> S::F8 {
 /// What eight rays meet so far.
 struct Nearest<S: Simd> {
     t: S::F8,
-    /// The number of the triangle in the list, as bits.
+    /// Twice the number of the pair in the list, and one more for its second triangle; as bits.
     triangle: S::F8,
     u: S::F8,
     v: S::F8,
@@ -198,34 +198,39 @@ struct Nearest<S: Simd> {
 }
 
 impl<S: Simd> Nearest<S> {
-    /// Tests triangle `i` for the rays `met`, which enter its leaf at `t0`.
+    /// Tests pair `i` for the rays `met`, which enter its leaf at `t0`.
     #[inline(always)]
-    fn triangle<const ANY: bool>(
+    fn pair<const ANY: bool>(
         &mut self,
-        (i, triangle): (u32, &FewTriangle),
+        (i, pair): (u32, &Pair),
         (met, t0): (u32, S::F8),
         (corners, error, sz): (&[Sheared<S>; MAX_VERTICES], &[S::F8; 2], S::F8),
     ) {
-        let [a, b, c] = triangle.corners;
-        let [a, b, c] = [a, b, c].map(|i| usize::from(i) % MAX_VERTICES);
-        let (a, b, c) = (&corners[a], &corners[b], &corners[c]);
-        let u = c[0] * b[1] - c[1] * b[0];
-        let v = a[0] * c[1] - a[1] * c[0];
-        let w = b[0] * a[1] - b[1] * a[0];
+        let corner = |i: u8| &corners[usize::from(i) % MAX_VERTICES];
+        let [a, b, c, d] = pair.corners;
+        let [a, b, c, d] = [corner(a), corner(b), corner(c), corner(d)];
         let zero = S::F8::splat(0.0);
-        let (least, greatest) = (u.min(v).min(w), u.max(v).max(w));
-        let inside = (zero.le(least) | greatest.le(zero)) & met & self.open;
-        if inside == 0 {
+        let (u, v, w) = (edge::<S>(c, b), edge::<S>(a, c), edge::<S>(b, a));
+        // That of the side they share differs in its sign alone.
+        let (u2, v2, w2) = (edge::<S>(d, c), edge::<S>(a, d), zero - v);
+        let (first, second) = (inside::<S>(u, v, w), inside::<S>(u2, v2, w2));
+        let met = met & self.open;
+        if (first | second) & met == 0 {
             return;
         }
+        // Rays of both go through the side they share.
+        let (both, second) = (first & second, second & !first);
+        let (u, v, w) = (u2.only_where(second, u), v2.only_where(second, v), w2.only_where(second, w));
+        let (bz, cz) = (c[2].only_where(second, b[2]), d[2].only_where(second, c[2]));
         let inv = S::F8::splat(1.0) / (u + v + w);
-        let t = (u * a[2] + v * b[2] + w * c[2]) * sz * inv;
-        let near = inside & zero.lt(t) & t.le(self.t);
+        let t = (u * a[2] + v * bz + w * cz) * sz * inv;
+        let near = (first | second) & met & (both | zero.lt(t) & t.le(self.t));
         if near == 0 {
             return;
         }
+        let (least, greatest) = (u.min(v).min(w), u.max(v).max(w));
         let exact = (zero.lt(least) | greatest.lt(zero)) & (error[0] + error[1] * inv.abs()).lt(t);
-        let taken = near & exact & t0.le(t) & t.lt(self.t);
+        let taken = near & exact & !both & t0.le(t) & t.lt(self.t);
         self.anew |= near & !taken;
         self.hit |= taken;
         if ANY {
@@ -233,11 +238,26 @@ impl<S: Simd> Nearest<S> {
             return;
         }
         self.open &= !self.anew;
+        let number = |i: u32| S::F8::splat(f32::from_bits(i));
+        let triangle = number(2 * i + 1).only_where(second, number(2 * i));
         self.t = t.only_where(taken, self.t);
-        self.triangle = S::F8::splat(f32::from_bits(i)).only_where(taken, self.triangle);
+        self.triangle = triangle.only_where(taken, self.triangle);
         self.u = (v * inv).only_where(taken, self.u);
         self.v = (w * inv).only_where(taken, self.v);
     }
+}
+
+/// The edge function of two corners.
+#[inline(always)]
+fn edge<S: Simd>(p: &Sheared<S>, q: &Sheared<S>) -> S::F8 {
+    p[0] * q[1] - p[1] * q[0]
+}
+
+/// Rays with no edge functions of different signs.
+#[inline(always)]
+fn inside<S: Simd>(u: S::F8, v: S::F8, w: S::F8) -> u32 {
+    let zero = S::F8::splat(0.0);
+    zero.le(u.min(v).min(w)) | u.max(v).max(w).le(zero)
 }
 
 /// The nearest points of eight rays, or with `ANY` any, and which rays have to be asked one by one instead.
@@ -265,8 +285,8 @@ pub(super) fn hit<S: Simd, const ANY: bool>(
         if met & nearest.open == 0 {
             continue;
         }
-        for (triangle, i) in few.triangles[range.clone()].iter().zip(range.start as u32..) {
-            nearest.triangle::<ANY>((i, triangle), (met, t0), (&*corners, &error, packet.s[2]));
+        for (pair, i) in few.pairs[range.clone()].iter().zip(range.start as u32..) {
+            nearest.pair::<ANY>((i, pair), (met, t0), (&*corners, &error, packet.s[2]));
         }
     }
     let Nearest { mut anew, mut open, .. } = nearest;
@@ -277,7 +297,8 @@ pub(super) fn hit<S: Simd, const ANY: bool>(
     while hit != 0 {
         let i = hit.trailing_zeros() as usize & (RAYS - 1);
         hit &= hit - 1;
-        let id = few.triangles[triangle[i].to_bits() as usize].id;
+        let number = triangle[i].to_bits() as usize;
+        let id = few.pairs[number / 2].ids[number % 2];
         found[i] = Some(RawHit { t: t[i], id, u: u[i], v: v[i] });
     }
     let mut limit = t;
