@@ -17,7 +17,7 @@ const MAX_TRIANGLES: usize = 40;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pair {
     pub(crate) corners: [u8; 4],
-    pub(crate) ids: [u32; 2],
+    ids: [u32; 2],
 }
 
 impl Pair {
@@ -38,6 +38,8 @@ pub(crate) struct Few {
     /// Boxes of the leaves that hold triangles, and which.
     pub(crate) leaves: Vec<(Aabb, Range<usize>)>,
     pub(crate) others: Vec<Other>,
+    /// Numbers among the primitives of the tree: two for each pair, one for each other.
+    pub(crate) ids: Vec<u32>,
 }
 
 /// A primitive that is not a triangle.
@@ -70,7 +72,8 @@ impl Few {
         let mut ids: Vec<u32> = bvh.triangles.iter().flat_map(TriBlock::triangles).map(|t| t.0).collect();
         ids.sort_unstable();
         let twice = ids.windows(2).any(|two| two[0] == two[1]);
-        (!twice && ids.len() <= MAX_TRIANGLES).then_some(few)
+        few.ids = few.pairs.iter().flat_map(|p| p.ids).chain(few.others.iter().map(|o| o.id)).collect();
+        (!twice && ids.len() <= MAX_TRIANGLES && !few.ids.is_empty()).then_some(few)
     }
 
     /// Adds the triangles of a block, in pairs where they share a side; `None` where their corners are too many.

@@ -6,18 +6,19 @@
 #![allow(unsafe_code, reason = "vector registers; every operation is tested against f32")]
 
 use core::arch::x86_64::{
-    __m256, _CMP_LE_OQ, _CMP_LT_OQ, _MM_HINT_T0, _mm_loadu_ps, _mm_prefetch, _mm256_add_ps, _mm256_and_si256,
+    __m256, _CMP_LE_OQ, _CMP_LT_OQ, _MM_HINT_T0, _mm_loadu_ps, _mm_prefetch, _mm256_add_ps, _mm256_and_ps,
     _mm256_andnot_ps, _mm256_blendv_ps, _mm256_broadcast_ps, _mm256_castps_si256, _mm256_castps128_ps256,
-    _mm256_castsi256_ps, _mm256_cmp_ps, _mm256_cmpeq_epi32, _mm256_div_ps, _mm256_insertf128_ps,
-    _mm256_loadu_ps, _mm256_max_epi32, _mm256_max_ps, _mm256_min_epi32, _mm256_min_ps, _mm256_movemask_ps,
-    _mm256_mul_ps, _mm256_permutevar_ps, _mm256_set1_epi32, _mm256_set1_ps, _mm256_setr_epi32,
+    _mm256_castsi256_ps, _mm256_cmp_ps, _mm256_div_ps, _mm256_insertf128_ps, _mm256_loadu_ps,
+    _mm256_max_epi32, _mm256_max_ps, _mm256_min_epi32, _mm256_min_ps, _mm256_movemask_ps, _mm256_mul_ps,
+    _mm256_or_ps, _mm256_permutevar_ps, _mm256_set1_epi32, _mm256_set1_ps, _mm256_setzero_ps,
     _mm256_shuffle_ps, _mm256_storeu_ps, _mm256_sub_ps, _mm256_unpackhi_ps, _mm256_unpacklo_ps,
+    _mm256_xor_ps,
 };
-use core::ops::{Add, Div, Mul, Sub};
+use core::ops::{Add, BitAnd, BitOr, Div, Mul, Not, Sub};
 
 use wide::f32x4;
 
-use super::{Floats, Kernel, Simd};
+use super::{Floats, Kernel, Mask, Simd};
 
 /// The processor has AVX2.
 #[derive(Clone, Copy, Debug)]
@@ -63,10 +64,15 @@ impl Simd for Avx2 {
 #[repr(transparent)]
 struct F8(__m256);
 
+/// Eight answers in one register: all bits of a lane set, or none.
+#[derive(Clone, Copy, Debug)]
+#[repr(transparent)]
+struct M8(__m256);
+
 /// Calls an intrinsic.
 macro_rules! avx {
     ($e:expr) => {
-        // SAFETY: values of this type exist only where AVX2 was found, see the head of the module.
+        // SAFETY: values of these types exist only where AVX2 was found, see the head of the module.
         unsafe { $e }
     };
 }
@@ -99,19 +105,46 @@ impl F8 {
 }
 
 macro_rules! operator {
-    ($($trait:ident $f:ident $intrinsic:ident),*) => { $(
-        impl $trait for F8 {
-            type Output = F8;
+    ($($trait:ident $f:ident $type:ident $intrinsic:ident),*) => { $(
+        impl $trait for $type {
+            type Output = $type;
             #[inline(always)]
-            fn $f(self, o: F8) -> F8 {
-                F8(avx!($intrinsic(self.0, o.0)))
+            fn $f(self, o: $type) -> $type {
+                $type(avx!($intrinsic(self.0, o.0)))
             }
         }
     )* }
 }
-operator!(Add add _mm256_add_ps, Sub sub _mm256_sub_ps, Mul mul _mm256_mul_ps, Div div _mm256_div_ps);
+operator!(
+    Add add F8 _mm256_add_ps,
+    Sub sub F8 _mm256_sub_ps,
+    Mul mul F8 _mm256_mul_ps,
+    Div div F8 _mm256_div_ps,
+    BitAnd bitand M8 _mm256_and_ps,
+    BitOr bitor M8 _mm256_or_ps
+);
+
+impl Not for M8 {
+    type Output = M8;
+    #[inline(always)]
+    fn not(self) -> M8 {
+        M8(avx!(_mm256_xor_ps(self.0, _mm256_castsi256_ps(_mm256_set1_epi32(-1)))))
+    }
+}
+
+impl Mask for M8 {
+    #[inline(always)]
+    fn none() -> M8 {
+        M8(avx!(_mm256_setzero_ps()))
+    }
+    #[inline(always)]
+    fn bits(self) -> u32 {
+        avx!(_mm256_movemask_ps(self.0)) as u32
+    }
+}
 
 impl Floats<8> for F8 {
+    type Mask = M8;
     #[inline(always)]
     fn splat(x: f32) -> F8 {
         F8(avx!(_mm256_set1_ps(x)))
@@ -149,19 +182,16 @@ impl Floats<8> for F8 {
         F8(avx!(_mm256_castsi256_ps(_mm256_max_epi32(_mm256_castps_si256(self.0), _mm256_castps_si256(o.0)))))
     }
     #[inline(always)]
-    fn le(self, o: F8) -> u32 {
-        avx!(_mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LE_OQ>(self.0, o.0))) as u32
+    fn le(self, o: F8) -> M8 {
+        M8(avx!(_mm256_cmp_ps::<_CMP_LE_OQ>(self.0, o.0)))
     }
     #[inline(always)]
-    fn lt(self, o: F8) -> u32 {
-        avx!(_mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LT_OQ>(self.0, o.0))) as u32
+    fn lt(self, o: F8) -> M8 {
+        M8(avx!(_mm256_cmp_ps::<_CMP_LT_OQ>(self.0, o.0)))
     }
     #[inline(always)]
-    fn only_where(self, bits: u32, o: F8) -> F8 {
-        let lanes = avx!(_mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128));
-        let set = avx!(_mm256_and_si256(_mm256_set1_epi32(bits as i32), lanes));
-        let mask = avx!(_mm256_castsi256_ps(_mm256_cmpeq_epi32(set, lanes)));
-        F8(avx!(_mm256_blendv_ps(o.0, self.0, mask)))
+    fn only_where(self, mask: M8, o: F8) -> F8 {
+        F8(avx!(_mm256_blendv_ps(o.0, self.0, mask.0)))
     }
     #[inline(always)]
     fn pick(table: &[f32; 4], at: F8) -> F8 {
