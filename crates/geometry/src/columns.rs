@@ -1,6 +1,6 @@
 //! Surface points of many hits, in columns: [`SurfaceColumns`].
 
-use sparrow_math::Vec3;
+use sparrow_math::{MAX_WIDTH, Vec3, vec3};
 
 use crate::point::SurfacePoint;
 
@@ -35,27 +35,75 @@ pub struct SurfaceColumns<'a> {
     pub uv: [&'a mut [f32]; 2],
 }
 
+/// A vector for each of so many points as fill the widest registers, axis by axis.
+pub(crate) type Vectors = [[f32; MAX_WIDTH]; 3];
+
 /// Writes a vector to place `k`.
 #[inline(always)]
-fn put([x, y, z]: &mut [&mut [f32]; 3], k: usize, v: Vec3<f32>) {
-    (x[k], y[k], z[k]) = (v.x, v.y, v.z);
+pub(crate) fn set(to: &mut Vectors, k: usize, v: Vec3<f32>) {
+    [to[0][k], to[1][k], to[2][k]] = v.to_array();
+}
+/// The vector in place `k`.
+#[inline(always)]
+pub(crate) fn get(from: &Vectors, k: usize) -> Vec3<f32> {
+    vec3(from[0][k], from[1][k], from[2][k])
 }
 
-impl SurfaceColumns<'_> {
-    /// Writes a point to place `k`.
-    #[inline]
+/// Points side by side, on their way to the columns.
+#[derive(Default)]
+pub(crate) struct PointBlock {
+    pub(crate) p: Vectors,
+    pub(crate) p_error: Vectors,
+    pub(crate) ng: Vectors,
+    pub(crate) ns: Vectors,
+    pub(crate) tangent: Vectors,
+    dpdu: Vectors,
+    dpdv: Vectors,
+    uv: [[f32; MAX_WIDTH]; 2],
+}
+
+impl PointBlock {
+    /// Writes a point to place `k`, which is taken modulo the number of places.
+    #[inline(always)]
     pub(crate) fn put(&mut self, k: usize, s: &SurfacePoint, parts: SurfaceParts) {
-        put(&mut self.p, k, s.p);
-        put(&mut self.p_error, k, s.p_error);
-        put(&mut self.ng, k, s.ng);
-        put(&mut self.ns, k, s.ns);
-        put(&mut self.tangent, k, s.tangent);
+        let k = k % MAX_WIDTH;
+        set(&mut self.p, k, s.p);
+        set(&mut self.p_error, k, s.p_error);
+        set(&mut self.ng, k, s.ng);
+        set(&mut self.ns, k, s.ns);
+        set(&mut self.tangent, k, s.tangent);
         if parts.derivatives {
-            put(&mut self.dpdu, k, s.dpdu);
-            put(&mut self.dpdv, k, s.dpdv);
+            set(&mut self.dpdu, k, s.dpdu);
+            set(&mut self.dpdv, k, s.dpdv);
         }
         if parts.uv {
             [self.uv[0][k], self.uv[1][k]] = s.uv;
+        }
+    }
+}
+
+/// Writes whole registers to places from `first` on.
+#[inline(always)]
+fn copy<const N: usize>(to: &mut [&mut [f32]; N], first: usize, from: &[[f32; MAX_WIDTH]; N]) {
+    for (to, from) in to.iter_mut().zip(from) {
+        to[first..first + MAX_WIDTH].copy_from_slice(from);
+    }
+}
+
+impl SurfaceColumns<'_> {
+    /// Writes a block to places from `first` on.
+    pub(crate) fn write(&mut self, first: usize, block: &PointBlock, parts: SurfaceParts) {
+        copy(&mut self.p, first, &block.p);
+        copy(&mut self.p_error, first, &block.p_error);
+        copy(&mut self.ng, first, &block.ng);
+        copy(&mut self.ns, first, &block.ns);
+        copy(&mut self.tangent, first, &block.tangent);
+        if parts.derivatives {
+            copy(&mut self.dpdu, first, &block.dpdu);
+            copy(&mut self.dpdv, first, &block.dpdv);
+        }
+        if parts.uv {
+            copy(&mut self.uv, first, &block.uv);
         }
     }
 }

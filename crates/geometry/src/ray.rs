@@ -4,6 +4,7 @@ use sparrow_math::Vec3;
 
 /// The points `o + t d` with `0 < t < t_max`; `d` need not be of unit length.
 #[derive(Clone, Copy, Debug)]
+#[repr(C)]
 pub struct Ray {
     /// Origin.
     pub o: Vec3<f32>,
@@ -20,6 +21,12 @@ impl Ray {
     #[inline]
     pub fn new(o: Vec3<f32>, d: Vec3<f32>) -> Ray {
         Ray { o, d, t_max: f32::INFINITY, time: 0.0 }
+    }
+    /// Its numbers in the order of the fields.
+    #[inline(always)]
+    pub(crate) fn to_array(self) -> [f32; 8] {
+        let Ray { o, d, t_max, time } = self;
+        [o.x, o.y, o.z, d.x, d.y, d.z, t_max, time]
     }
     /// The point at parameter `t`.
     #[inline]

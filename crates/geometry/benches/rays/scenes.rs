@@ -68,8 +68,9 @@ impl Scene {
         for tracer in crate::embree::all(&mesh, settings) {
             tracers.push(Box::new(tracer));
         }
-        RaySets::new(&geometry, camera(self.eye, self.at, 45.0, resolution), self.light)
-            .race(&tracers, rounds);
+        let sets = RaySets::new(&geometry, camera(self.eye, self.at, 45.0, resolution), self.light);
+        sets.race(&tracers, rounds);
+        crate::surfaces::run("surface points of bounces", &geometry, &sets.bounce, rounds, |shape| shape);
     }
 }
 

@@ -15,7 +15,7 @@ use super::ray_data::RayData;
 use super::traverse::Block;
 use crate::lerp::Lerp;
 use crate::ray::Ray;
-use crate::simd::{Floats, Simd};
+use crate::simd::{Floats, Mask, Simd};
 
 /// Triangles of a block.
 pub(crate) const LEAF_SIZE: usize = 8;
@@ -147,17 +147,18 @@ impl Block for TriBlock {
         let zero = LeafFloats::<S>::splat(0.0);
         let (least, greatest) = (u.min(v).min(w), u.max(v).max(w));
         let inside = zero.le(least) | greatest.le(zero);
-        if inside == 0 {
+        if !inside.any() {
             return t_max;
         }
         let inv = LeafFloats::<S>::splat(1.0) / (u + v + w);
         let t = (u * a[2] + v * b[2] + w * c[2]) * r.s[2] * inv;
-        let mut mask = inside & zero.lt(t) & t.lt(LeafFloats::<S>::splat(t_max));
+        let mut mask = (inside & zero.lt(t) & t.lt(LeafFloats::<S>::splat(t_max))).bits();
         if mask == 0 {
             return t_max;
         }
         // No edge function is zero, and `t` is beyond its error.
         let settled = (zero.lt(least) | greatest.lt(zero)) & t_error::<S>(&p, &[u, v, w], inv, r.s[2]).lt(t);
+        let settled = settled.bits();
         let (t, b1, b2) = (t.to_array(), (v * inv).to_array(), (w * inv).to_array());
         while mask != 0 {
             let i = mask.trailing_zeros() as usize & (LEAF_SIZE - 1);

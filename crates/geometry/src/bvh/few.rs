@@ -12,11 +12,21 @@ pub(crate) const MAX_VERTICES: usize = 64;
 /// Most triangles.
 const MAX_TRIANGLES: usize = 40;
 
-/// A triangle by the numbers of its corners.
+/// Two triangles that share a side, (a, b, c) and (a, c, d), by the numbers of their corners. For a triangle alone, d is a: the second
+/// then has no area.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct FewTriangle {
-    pub(crate) corners: [u8; 3],
-    pub(crate) id: u32,
+pub(crate) struct Pair {
+    pub(crate) corners: [u8; 4],
+    ids: [u32; 2],
+}
+
+impl Pair {
+    /// With another triangle, which must not be part of a pair.
+    fn with(&self, other: &Pair) -> Option<Pair> {
+        let ([a, b, c, none], [a2, c2, d, none2]) = (self.corners, other.corners);
+        let share = a == a2 && c == c2 && none == a && none2 == a2;
+        share.then_some(Pair { corners: [a, b, c, d], ids: [self.ids[0], other.ids[0]] })
+    }
 }
 
 /// The leaves of a tree of one node; corners that triangles share are there once.
@@ -24,10 +34,12 @@ pub(crate) struct FewTriangle {
 pub(crate) struct Few {
     /// `x y z 0`
     pub(crate) vertices: Vec<[f32; 4]>,
-    pub(crate) triangles: Vec<FewTriangle>,
+    pub(crate) pairs: Vec<Pair>,
     /// Boxes of the leaves that hold triangles, and which.
     pub(crate) leaves: Vec<(Aabb, Range<usize>)>,
     pub(crate) others: Vec<Other>,
+    /// Numbers among the primitives of the tree: two for each pair, one for each other.
+    pub(crate) ids: Vec<u32>,
 }
 
 /// A primitive that is not a triangle.
@@ -52,22 +64,24 @@ impl Few {
                 let id = child.index() as u32;
                 few.others.push(Other { bounds, id, ball: ball(id)? });
             } else {
-                let first = few.triangles.len();
+                let first = few.pairs.len();
                 few.add(bvh.triangles.get(child.index())?)?;
-                few.leaves.push((bounds, first..few.triangles.len()));
+                few.leaves.push((bounds, first..few.pairs.len()));
             }
         }
-        let mut ids: Vec<u32> = few.triangles.iter().map(|t| t.id).collect();
+        let mut ids: Vec<u32> = bvh.triangles.iter().flat_map(TriBlock::triangles).map(|t| t.0).collect();
         ids.sort_unstable();
         let twice = ids.windows(2).any(|two| two[0] == two[1]);
-        (!twice).then_some(few)
+        few.ids = few.pairs.iter().flat_map(|p| p.ids).chain(few.others.iter().map(|o| o.id)).collect();
+        (!twice && ids.len() <= MAX_TRIANGLES && !few.ids.is_empty()).then_some(few)
     }
 
-    /// Adds the triangles of a block; `None` where they are too many.
+    /// Adds the triangles of a block, in pairs where they share a side; `None` where their corners are too many.
     fn add(&mut self, block: &TriBlock) -> Option<()> {
+        let mut alone = Vec::new();
         for (id, corners) in block.triangles() {
-            let mut triangle = FewTriangle { corners: [0; 3], id };
-            for (to, [x, y, z]) in triangle.corners.iter_mut().zip(corners) {
+            let mut numbers = [0; 3];
+            for (to, [x, y, z]) in numbers.iter_mut().zip(corners) {
                 let v = [x, y, z, 0.0];
                 let same = |w: &[f32; 4]| w.map(f32::to_bits) == v.map(f32::to_bits);
                 let at = self.vertices.iter().position(same).unwrap_or(self.vertices.len());
@@ -76,8 +90,17 @@ impl Few {
                 }
                 *to = u8::try_from(at).ok().filter(|&at| usize::from(at) < MAX_VERTICES)?;
             }
-            self.triangles.push(triangle);
+            let [a, b, c] = numbers;
+            alone.push(Pair { corners: [a, b, c, a], ids: [id; 2] });
         }
-        (self.triangles.len() <= MAX_TRIANGLES).then_some(())
+        while let Some(one) = alone.pop() {
+            let two = |other: &Pair| one.with(other).or_else(|| other.with(&one));
+            let found = alone.iter().enumerate().find_map(|(i, other)| Some((i, two(other)?)));
+            if let Some((i, _)) = found {
+                alone.remove(i);
+            }
+            self.pairs.push(found.map_or(one, |(_, pair)| pair));
+        }
+        Some(())
     }
 }

@@ -22,8 +22,9 @@ pub(crate) use few::Few;
 pub(crate) use motion::MotionBvh;
 pub(crate) use node::Kind;
 use node::{Child, Node};
+pub(crate) use packet::{Eight, RAYS};
 pub(crate) use pages::Pages;
-pub(crate) use traverse::Others;
+pub(crate) use traverse::{Answers, Others};
 use traverse::{Block, Boxes};
 
 use sparrow_math::Aabb;

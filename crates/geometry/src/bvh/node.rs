@@ -11,7 +11,7 @@ use sparrow_math::Aabb;
 use super::ray_data::RayData;
 use super::traverse::Boxes;
 use crate::ray::Ray;
-use crate::simd::{Floats, Simd};
+use crate::simd::{Floats, Mask, Simd};
 
 /// Children of a node.
 pub(crate) const WIDTH: usize = 8;
@@ -133,5 +133,5 @@ pub(super) fn meet<S: Simd>(
     let far = |a: usize| (r.o[a] - far(a)) * r.minus_inv_far[a];
     let t0 = near(0).max_nonneg(near(1)).max_nonneg(near(2).max_nonneg(S::F8::splat(0.0)));
     let t1 = far(0).min_nonneg(far(1)).min_nonneg(far(2).min_nonneg(t_max));
-    (t0.le(t1), t0)
+    (t0.le(t1).bits(), t0)
 }

@@ -5,15 +5,18 @@
 //! before its leaf's box, or where a triangle has to be settled in double precision: such rays are asked anew one by one.
 
 use super::block::{RawHit, gamma};
-use super::few::{Few, FewTriangle, MAX_VERTICES, Other};
+use super::few::{Few, MAX_VERTICES, Other, Pair};
 use super::ray_data::{PAD, TINY_INV};
 use super::traverse::Others;
 use crate::ray::Ray;
-use crate::simd::{Floats, Simd};
+use crate::simd::{Floats, Mask, Simd};
 use sparrow_math::Aabb;
 
 /// Rays of a packet.
-pub(super) const RAYS: usize = 8;
+pub(crate) const RAYS: usize = 8;
+
+/// One truth value for each ray.
+type Which<S> = <<S as Simd>::F8 as Floats<8>>::Mask;
 
 /// A corner in the sheared spaces of eight rays.
 pub(super) type Sheared<S> = [<S as Simd>::F8; 3];
@@ -35,18 +38,18 @@ struct Packet<S: Simd> {
     s: [S::F8; 3],
     t_max: S::F8,
     /// Rays that can meet something.
-    valid: u32,
+    valid: Which<S>,
 }
 
-/// The axes of eight rays, permuted as for one ray; as bits for each ray.
-struct Turns {
+/// The axes of eight rays, permuted as for one ray.
+struct Turns<S: Simd> {
     /// The first axis is y, is z; the second; the third.
-    is: [[u32; 2]; 3],
+    is: [[Which<S>; 2]; 3],
 }
 
-impl Turns {
+impl<S: Simd> Turns<S> {
     #[inline(always)]
-    fn new<S: Simd>(d: [S::F8; 3]) -> Turns {
+    fn new(d: [S::F8; 3]) -> Turns<S> {
         let a = [d[0].abs(), d[1].abs(), d[2].abs()];
         let x = a[1].lt(a[0]) & a[2].lt(a[0]);
         let y = !a[1].lt(a[0]) & a[2].lt(a[1]);
@@ -59,15 +62,15 @@ impl Turns {
     }
     /// Numbers of the axes, as bits.
     #[inline(always)]
-    fn k<S: Simd>(&self) -> [S::F8; 3] {
-        self.of::<S>([
+    fn k(&self) -> [S::F8; 3] {
+        self.of([
             S::F8::splat(f32::from_bits(0)),
             S::F8::splat(f32::from_bits(1)),
             S::F8::splat(f32::from_bits(2)),
         ])
     }
     #[inline(always)]
-    fn of<S: Simd>(&self, v: [S::F8; 3]) -> [S::F8; 3] {
+    fn of(&self, v: [S::F8; 3]) -> [S::F8; 3] {
         let [[ay, az], [by, bz], [cy, cz]] = self.is;
         let z = [v[2].only_where(az, v[0]), v[2].only_where(bz, v[0]), v[2].only_where(cz, v[0])];
         [v[1].only_where(ay, z[0]), v[1].only_where(by, z[1]), v[1].only_where(cy, z[2])]
@@ -77,19 +80,12 @@ impl Turns {
 impl<S: Simd> Packet<S> {
     #[inline(always)]
     fn new(rays: &[Ray; RAYS]) -> Packet<S> {
-        // Numbers side by side: x y z of origins, of directions, and ends.
-        let mut columns = [[0.0; RAYS]; 7];
-        for (i, ray) in rays.iter().enumerate() {
-            let numbers = [ray.o.x, ray.o.y, ray.o.z, ray.d.x, ray.d.y, ray.d.z, ray.t_max];
-            for (column, x) in columns.iter_mut().zip(numbers) {
-                column[i] = x;
-            }
-        }
-        let [ox, oy, oz, dx, dy, dz, t_max] = &columns;
-        let o = [S::F8::load(ox), S::F8::load(oy), S::F8::load(oz)];
-        let d = [S::F8::load(dx), S::F8::load(dy), S::F8::load(dz)];
-        let turns = Turns::new::<S>(d);
-        let d_k = turns.of::<S>(d);
+        let row = |i: usize| rays[i].to_array();
+        let rows = [row(0), row(1), row(2), row(3), row(4), row(5), row(6), row(7)];
+        let [ox, oy, oz, dx, dy, dz, t_max, _] = S::columns(&rows);
+        let (o, d) = ([ox, oy, oz], [dx, dy, dz]);
+        let turns = Turns::<S>::new(d);
+        let d_k = turns.of(d);
         let sz = S::F8::splat(1.0) / d_k[2];
         let minus_inv = [minus_inv::<S>(d[0]), minus_inv::<S>(d[1]), minus_inv::<S>(d[2])];
         let valid = finite::<S>(o[0]) & finite::<S>(o[1]) & finite::<S>(o[2]) & finite::<S>(sz);
@@ -98,10 +94,10 @@ impl<S: Simd> Packet<S> {
             d,
             minus_inv_near: scaled::<S>(minus_inv, 1.0 - PAD),
             minus_inv_far: scaled::<S>(minus_inv, 1.0 + PAD),
-            k: turns.k::<S>(),
-            o_k: turns.of::<S>(o),
+            k: turns.k(),
+            o_k: turns.of(o),
             s: [d_k[0] * sz, d_k[1] * sz, sz],
-            t_max: S::F8::load(t_max),
+            t_max,
             valid: valid & finite::<S>(d[0]) & finite::<S>(d[1]) & finite::<S>(d[2]),
         }
     }
@@ -117,7 +113,7 @@ impl<S: Simd> Packet<S> {
 
     /// Rays that meet a box between 0 and `t_max`, and where they enter it.
     #[inline(always)]
-    fn meets(&self, b: &Aabb, t_max: S::F8) -> (u32, S::F8) {
+    fn meets(&self, b: &Aabb, t_max: S::F8) -> (Which<S>, S::F8) {
         let [(x0, x1), (y0, y1), (z0, z1)] = [self.interval(b, 0), self.interval(b, 1), self.interval(b, 2)];
         let t0 = x0.max_nonneg(y0).max_nonneg(z0.max_nonneg(S::F8::splat(0.0)));
         let t1 = x1.min_nonneg(y1).min_nonneg(z1.min_nonneg(t_max));
@@ -126,7 +122,7 @@ impl<S: Simd> Packet<S> {
 
     /// Rays whose lines do not clearly miss a ball: by a hundredfold of what rounding can do here.
     #[inline(always)]
-    fn reaches(&self, &(center, radius): &([f32; 3], f32)) -> u32 {
+    fn reaches(&self, &(center, radius): &([f32; 3], f32)) -> Which<S> {
         let [x, y, z] = [center[0], center[1], center[2]];
         let (x, y, z) =
             (self.o[0] - S::F8::splat(x), self.o[1] - S::F8::splat(y), self.o[2] - S::F8::splat(z));
@@ -163,7 +159,7 @@ impl<S: Simd> Packet<S> {
 
 /// Rays whose number is finite.
 #[inline(always)]
-fn finite<S: Simd>(v: S::F8) -> u32 {
+fn finite<S: Simd>(v: S::F8) -> Which<S> {
     v.abs().lt(S::F8::splat(f32::INFINITY))
 }
 
@@ -176,7 +172,7 @@ fn scaled<S: Simd>(v: [S::F8; 3], by: f32) -> [S::F8; 3] {
 #[inline(always)]
 fn minus_inv<S: Simd>(d: S::F8) -> S::F8 {
     let (inv, small) = (S::F8::splat(1.0) / d, d.abs().lt(S::F8::splat(1e-30)));
-    S::F8::splat(-1.0) * if small == 0 { inv } else { stand_in::<S>(d).only_where(small, inv) }
+    S::F8::splat(-1.0) * if !small.any() { inv } else { stand_in::<S>(d).only_where(small, inv) }
 }
 
 /// The reciprocals that stand in for those of directions next to zero.
@@ -192,123 +188,208 @@ fn stand_in<S: Simd>(d: S::F8) -> S::F8 {
 /// What eight rays meet so far.
 struct Nearest<S: Simd> {
     t: S::F8,
-    /// The number of the triangle in the list, as bits.
-    triangle: S::F8,
+    /// The place in [`Few::ids`], as bits.
+    place: S::F8,
     u: S::F8,
     v: S::F8,
     /// Rays that met something.
-    hit: u32,
+    hit: Which<S>,
     /// Rays to be asked anew.
-    anew: u32,
+    anew: Which<S>,
     /// Rays that look on.
-    open: u32,
+    open: Which<S>,
 }
 
 impl<S: Simd> Nearest<S> {
-    /// Tests triangle `i` for the rays `met`, which enter its leaf at `t0`.
+    /// Tests pair `i` for the rays `met`, which enter its leaf at `t0`.
     #[inline(always)]
-    fn triangle<const ANY: bool>(
+    fn pair<const ANY: bool>(
         &mut self,
-        (i, triangle): (u32, &FewTriangle),
-        (met, t0): (u32, S::F8),
+        (i, pair): (u32, &Pair),
+        (met, t0): (Which<S>, S::F8),
         (corners, error, sz): (&[Sheared<S>; MAX_VERTICES], &[S::F8; 2], S::F8),
     ) {
-        let [a, b, c] = triangle.corners;
-        let [a, b, c] = [a, b, c].map(|i| usize::from(i) % MAX_VERTICES);
-        let (a, b, c) = (&corners[a], &corners[b], &corners[c]);
-        let u = c[0] * b[1] - c[1] * b[0];
-        let v = a[0] * c[1] - a[1] * c[0];
-        let w = b[0] * a[1] - b[1] * a[0];
+        let corner = |i: u8| &corners[usize::from(i) % MAX_VERTICES];
+        let [a, b, c, d] = pair.corners;
+        let [a, b, c, d] = [corner(a), corner(b), corner(c), corner(d)];
         let zero = S::F8::splat(0.0);
-        let (least, greatest) = (u.min(v).min(w), u.max(v).max(w));
-        let inside = (zero.le(least) | greatest.le(zero)) & met & self.open;
-        if inside == 0 {
+        let (u, v, w) = (edge::<S>(c, b), edge::<S>(a, c), edge::<S>(b, a));
+        // That of the side they share differs in its sign alone.
+        let (u2, v2, w2) = (edge::<S>(d, c), edge::<S>(a, d), zero - v);
+        let (first, second) = (inside::<S>(u, v, w), inside::<S>(u2, v2, w2));
+        let met = met & self.open;
+        if !((first | second) & met).any() {
             return;
         }
+        // Rays of both go through the side they share.
+        let (both, second) = (first & second, second & !first);
+        let (u, v, w) = (u2.only_where(second, u), v2.only_where(second, v), w2.only_where(second, w));
+        let (bz, cz) = (c[2].only_where(second, b[2]), d[2].only_where(second, c[2]));
         let inv = S::F8::splat(1.0) / (u + v + w);
-        let t = (u * a[2] + v * b[2] + w * c[2]) * sz * inv;
-        let near = inside & zero.lt(t) & t.le(self.t);
-        if near == 0 {
+        let t = (u * a[2] + v * bz + w * cz) * sz * inv;
+        let near = (first | second) & met & (both | zero.lt(t) & t.le(self.t));
+        if !near.any() {
             return;
         }
+        let (least, greatest) = (u.min(v).min(w), u.max(v).max(w));
         let exact = (zero.lt(least) | greatest.lt(zero)) & (error[0] + error[1] * inv.abs()).lt(t);
-        let taken = near & exact & t0.le(t) & t.lt(self.t);
-        self.anew |= near & !taken;
-        self.hit |= taken;
-        if ANY {
-            self.open &= !near;
-            return;
-        }
-        self.open &= !self.anew;
+        let place = number::<S>(2 * i + 1).only_where(second, number::<S>(2 * i));
+        self.offer::<ANY>(near, near & exact & !both & t0.le(t) & t.lt(self.t), [t, place, v * inv, w * inv]);
+    }
+
+    /// Takes points, at `t` and in `place`, where `taken` says so; asks anew where they are only `near`.
+    #[inline(always)]
+    fn offer<const ANY: bool>(&mut self, near: Which<S>, taken: Which<S>, [t, place, u, v]: [S::F8; 4]) {
+        self.anew = self.anew | near & !taken;
+        self.hit = self.hit | taken;
+        self.open = self.open & !if ANY { near } else { self.anew };
         self.t = t.only_where(taken, self.t);
-        self.triangle = S::F8::splat(f32::from_bits(i)).only_where(taken, self.triangle);
-        self.u = (v * inv).only_where(taken, self.u);
-        self.v = (w * inv).only_where(taken, self.v);
+        self.place = place.only_where(taken, self.place);
+        self.u = u.only_where(taken, self.u);
+        self.v = v.only_where(taken, self.v);
+    }
+
+    /// Tests a ball for the rays `met`, which enter its box at `t0` and its surface at the first of `roots`.
+    #[inline(always)]
+    fn ball<const ANY: bool>(
+        &mut self,
+        place: u32,
+        (met, t0): (Which<S>, S::F8),
+        [near, far]: &[[f32; RAYS]; 2],
+    ) {
+        let (near, zero) = (S::F8::load(near), S::F8::splat(0.0));
+        let t = near.only_where(zero.lt(near), S::F8::load(far));
+        let near = met & self.open & zero.lt(t) & t.le(self.t);
+        let taken = near & t0.le(t) & t.lt(self.t);
+        self.offer::<ANY>(near, taken, [t, number::<S>(place), zero, zero]);
+    }
+
+    /// Asks for the points of another primitive ray by ray.
+    #[inline(always)]
+    fn others<const ANY: bool>(
+        &mut self,
+        (place, id): (u32, u32),
+        (met, t0): (Which<S>, S::F8),
+        rays: &[Ray; RAYS],
+        others: &impl Others,
+    ) {
+        let (mut t, mut u, mut v) = (self.t.to_array(), self.u.to_array(), self.v.to_array());
+        let (t0, before) = (t0.to_array(), self.t);
+        let (mut met, mut anew) = ((met & self.open).bits(), [0.0; RAYS]);
+        while met != 0 {
+            let i = met.trailing_zeros() as usize & (RAYS - 1);
+            met &= met - 1;
+            // One that lies as far as the limit shows in this way.
+            others.hit(id, &rays[i], t[i].next_up(), &mut |h: RawHit| {
+                if h.t < t[i] && t0[i] <= h.t {
+                    (t[i], u[i], v[i]) = (h.t, h.u, h.v);
+                } else {
+                    anew[i] = 1.0;
+                }
+                t[i]
+            });
+        }
+        let (t, anew) = (S::F8::load(&t), S::F8::splat(0.0).lt(S::F8::load(&anew)));
+        let taken = t.lt(before);
+        self.offer::<ANY>(
+            taken | anew,
+            taken & !anew,
+            [t, number::<S>(place), S::F8::load(&u), S::F8::load(&v)],
+        );
     }
 }
 
-/// The nearest points of eight rays, or with `ANY` any, and which rays have to be asked one by one instead.
+/// A number in each lane, as bits.
+#[inline(always)]
+fn number<S: Simd>(i: u32) -> S::F8 {
+    S::F8::splat(f32::from_bits(i))
+}
+
+/// The edge function of two corners.
+#[inline(always)]
+fn edge<S: Simd>(p: &Sheared<S>, q: &Sheared<S>) -> S::F8 {
+    p[0] * q[1] - p[1] * q[0]
+}
+
+/// Rays with no edge functions of different signs.
+#[inline(always)]
+fn inside<S: Simd>(u: S::F8, v: S::F8, w: S::F8) -> Which<S> {
+    let zero = S::F8::splat(0.0);
+    zero.le(u.min(v).min(w)) | u.max(v).max(w).le(zero)
+}
+
+/// What eight rays meet.
+pub(crate) struct Eight {
+    t: [f32; RAYS],
+    /// Numbers of primitives; also where nothing is met.
+    id: [u32; RAYS],
+    u: [f32; RAYS],
+    v: [f32; RAYS],
+    /// One bit for each ray that met something.
+    hit: u32,
+    /// One bit for each that has to be asked by itself instead.
+    pub(super) anew: u32,
+}
+
+impl Eight {
+    /// What a ray meets, and whether it does: else it is of no meaning, but for the number of some primitive.
+    #[inline(always)]
+    pub(crate) fn get(&self, i: usize) -> (RawHit, bool) {
+        let i = i % RAYS;
+        (RawHit { t: self.t[i], id: self.id[i], u: self.u[i], v: self.v[i] }, self.hit >> i & 1 == 1)
+    }
+}
+
+/// The nearest points of eight rays, or with `ANY` any.
 #[inline(always)]
 pub(super) fn hit<S: Simd, const ANY: bool>(
     few: &Few,
     rays: &[Ray; RAYS],
     others: &impl Others,
     corners: &mut [Sheared<S>; MAX_VERTICES],
-) -> ([Option<RawHit>; RAYS], u32) {
+) -> Eight {
     let packet = Packet::<S>::new(rays);
     let error = packet.shear(&few.vertices, corners);
-    let none = S::F8::splat(0.0);
+    let (zero, none) = (S::F8::splat(0.0), Which::<S>::none());
     let mut nearest = Nearest::<S> {
         t: packet.t_max,
-        triangle: none,
-        u: none,
-        v: none,
-        hit: 0,
-        anew: 0,
+        place: zero,
+        u: zero,
+        v: zero,
+        hit: none,
+        anew: none,
         open: packet.valid,
     };
     for (bounds, range) in &few.leaves {
         let (met, t0) = packet.meets(bounds, nearest.t);
-        if met & nearest.open == 0 {
+        if !(met & nearest.open).any() {
             continue;
         }
-        for (triangle, i) in few.triangles[range.clone()].iter().zip(range.start as u32..) {
-            nearest.triangle::<ANY>((i, triangle), (met, t0), (&*corners, &error, packet.s[2]));
+        for (pair, i) in few.pairs[range.clone()].iter().zip(range.start as u32..) {
+            nearest.pair::<ANY>((i, pair), (met, t0), (&*corners, &error, packet.s[2]));
         }
     }
-    let Nearest { mut anew, mut open, .. } = nearest;
-    let (t, triangle) = (nearest.t.to_array(), nearest.triangle.to_array());
-    let (u, v) = (nearest.u.to_array(), nearest.v.to_array());
-    let mut found = [None; RAYS];
-    let mut hit = nearest.hit;
-    while hit != 0 {
-        let i = hit.trailing_zeros() as usize & (RAYS - 1);
-        hit &= hit - 1;
-        let id = few.triangles[triangle[i].to_bits() as usize].id;
-        found[i] = Some(RawHit { t: t[i], id, u: u[i], v: v[i] });
-    }
-    let mut limit = t;
-    for Other { bounds, id, ball } in &few.others {
-        let (met, t0) = packet.meets(bounds, S::F8::load(&limit));
-        let mut met = met & open & packet.reaches(ball);
-        let t0 = t0.to_array();
-        while met != 0 {
-            let i = met.trailing_zeros() as usize & (RAYS - 1);
-            met &= met - 1;
-            // One that lies as far as the limit shows in this way.
-            others.hit(*id, &rays[i], limit[i].next_up(), &mut |h: RawHit| {
-                if h.t < limit[i] && t0[i] <= h.t {
-                    (found[i], limit[i]) = (Some(h), h.t);
-                } else {
-                    anew |= 1 << i;
-                }
-                limit[i]
-            });
-            open &= !anew;
-            if ANY && found[i].is_some() {
-                open &= !(1 << i);
-            }
+    for (Other { bounds, id, ball }, place) in few.others.iter().zip(2 * few.pairs.len() as u32..) {
+        let (met, t0) = packet.meets(bounds, nearest.t);
+        let met = met & packet.reaches(ball);
+        if !(met & nearest.open).any() {
+            continue;
+        }
+        match others.roots(*id, &packet.o.map(S::F8::to_array), &packet.d.map(S::F8::to_array)) {
+            Some(roots) => nearest.ball::<ANY>(place, (met, t0), &roots),
+            None => nearest.others::<ANY>((place, *id), (met, t0), rays, others),
         }
     }
-    (found, anew)
+    let mut id = [0; RAYS];
+    for (id, place) in id.iter_mut().zip(nearest.place.to_array()) {
+        *id = few.ids[place.to_bits() as usize];
+    }
+    Eight {
+        t: nearest.t.to_array(),
+        id,
+        u: nearest.u.to_array(),
+        v: nearest.v.to_array(),
+        hit: nearest.hit.bits(),
+        anew: nearest.anew.bits(),
+    }
 }

@@ -4,7 +4,7 @@ use super::node::Kind;
 use super::{Bvh, Others, PrimRef, RawHit};
 use crate::progress::Progress;
 use crate::ray::Ray;
-use crate::simd::{Floats, Kernel, Simd, Unit};
+use crate::simd::{Floats, Kernel, Mask, Simd, Unit};
 use sparrow_math::{Aabb, Vec3, vec3};
 
 /// Numbers in [0, 1). [Steele2014]
@@ -81,12 +81,16 @@ impl Kernel for Operations {
         let both = [a + b, a - b, a * b, a / b, a.min(b), a.max(b), a.abs(), S::F8::splat(self.0[3])];
         // These two promise their value only where nothing is negative.
         let some = [a.abs().min_nonneg(b.abs()), a.abs().max_nonneg(b.abs())];
-        let bits = self.0[0].to_bits();
-        let chosen = [a.only_where(bits, b), S::F8::pick(&[1.0, 2.0, 3.0, 4.0], b)];
+        let none = <S::F8 as Floats<8>>::Mask::none();
+        let (le, lt) = (a.le(b), a.lt(b));
+        let chosen = [a.only_where(!lt, b), S::F8::pick(&[1.0, 2.0, 3.0, 4.0], b)];
         let numbers = both.into_iter().chain(some).chain(chosen).flat_map(|x| x.to_array().map(f32::to_bits));
         let signs = [a.min_nonneg(b), a.max_nonneg(b)];
         let signs = signs.into_iter().flat_map(|x| x.to_array().map(|x| u32::from(x > 0.0)));
-        numbers.chain(signs).chain([a.le(b), a.lt(b), b.le(a), a.le(a), a.lt(a)]).collect()
+        numbers
+            .chain(signs)
+            .chain([le, lt, b.le(a), a.le(a), none, le & !lt, lt | !le, !lt].map(Mask::bits))
+            .collect()
     }
 }
 
@@ -106,12 +110,13 @@ fn one_by_one(a: [f32; 8], b: [f32; 8]) -> Vec<u32> {
     out.extend([a[3].to_bits(); 8]);
     out.extend(each(&|a, b| min(a.abs(), b.abs())));
     out.extend(each(&|a, b| max(a.abs(), b.abs())));
-    let chosen = |i: usize| if a[0].to_bits() >> i & 1 == 1 { a[i] } else { b[i] };
+    let chosen = |i: usize| if a[i] < b[i] { b[i] } else { a[i] };
     out.extend([0, 1, 2, 3, 4, 5, 6, 7].map(|i| chosen(i).to_bits()));
     out.extend(b.map(|b| ((b.to_bits() % 4 + 1) as f32).to_bits()));
     out.extend([0, 1, 2, 3, 4, 5, 6, 7].map(|i| u32::from(min(a[i], b[i]) > 0.0)));
     out.extend([0, 1, 2, 3, 4, 5, 6, 7].map(|i| u32::from(max(a[i], b[i]) > 0.0)));
     out.extend([bits(&|a, b| a <= b), bits(&|a, b| a < b), bits(&|a, b| b <= a), 0xff, 0]);
+    out.extend([bits(&|a, b| a == b), bits(&|a, b| a < b || a > b), bits(&|a, b| a >= b)]);
     out
 }
 

@@ -8,7 +8,7 @@ use super::Bvh;
 use super::block::RawHit;
 use super::few::Few;
 use super::node::{Child, WIDTH};
-use super::packet;
+use super::packet::{self, Eight, RAYS};
 use super::ray_data::RayData;
 use super::stack::{Entry, Stack};
 use crate::ray::Ray;
@@ -19,9 +19,23 @@ pub(crate) trait Others {
     /// Offers every point of the ray before `t_max` on primitive `id` to `found`, which answers with the new
     /// `t_max`; returns the last of them.
     fn hit(&self, id: u32, ray: &Ray, t_max: f32, found: &mut impl FnMut(RawHit) -> f32) -> f32;
+    /// Where the lines of eight rays meet primitive `id`, in order and rounded, if that is a whole ball; not numbers where they do
+    /// not, or only behind their origins. Takes origins and directions axis by axis.
+    #[inline(always)]
+    fn roots(&self, _id: u32, _o: &[[f32; RAYS]; 3], _d: &[[f32; RAYS]; 3]) -> Option<[[f32; RAYS]; 2]> {
+        None
+    }
     /// Asks for what the test of primitive `id` will read.
     #[inline(always)]
     fn ahead(&self, _id: u32) {}
+}
+
+/// Whoever waits for what the rays of a list meet.
+pub(crate) trait Answers {
+    /// Takes what ray `i` meets.
+    fn one(&mut self, i: usize, hit: Option<RawHit>);
+    /// Takes what eight rays meet, from ray `first` on. Some of them may be answered once more.
+    fn eight(&mut self, first: usize, hits: &Eight);
 }
 
 /// Children of a node, with their boxes.
@@ -184,34 +198,35 @@ impl<A: Fn(&RawHit) -> bool> Best<A> {
 }
 
 /// Many rays through a tree, or all of it that there is if these are few: the vector unit is chosen once for all.
-struct Walks<'a, const ANY: bool, O, P> {
+struct Walks<'a, const ANY: bool, O, A> {
     bvh: &'a Bvh,
     few: Option<&'a Few>,
     rays: &'a [Ray],
     others: &'a O,
-    put: P,
+    answers: &'a mut A,
 }
 
-impl<const ANY: bool, O: Others, P: FnMut(usize, Option<RawHit>)> Kernel for Walks<'_, ANY, O, P> {
+impl<const ANY: bool, O: Others, A: Answers> Kernel for Walks<'_, ANY, O, A> {
     type Output = ();
     #[inline(always)]
-    fn run<S: Simd>(mut self) {
+    fn run<S: Simd>(self) {
         let mut corners = packet::room::<S>();
-        for (n, rays) in self.rays.chunks(packet::RAYS).enumerate() {
-            let (mut found, mut alone) = ([None; packet::RAYS], u32::MAX);
+        for (n, rays) in self.rays.chunks(RAYS).enumerate() {
+            let (first, mut alone) = (n * RAYS, (1 << rays.len()) - 1_u32);
             // In halves of four, rays that go different ways take longer together than one by one.
             if S::EIGHT_IN_ONE
                 && let (Some(few), Ok(rays)) = (self.few, rays.try_into())
             {
-                (found, alone) = packet::hit::<S, ANY>(few, rays, self.others, &mut corners);
+                let hits = packet::hit::<S, ANY>(few, rays, self.others, &mut corners);
+                self.answers.eight(first, &hits);
+                alone = hits.anew;
             }
-            for (i, (ray, found)) in rays.iter().zip(&mut found).enumerate() {
-                if alone >> i & 1 == 1 {
-                    let mut best = Best { accept: |_: &RawHit| true, hit: None, t_max: ray.t_max };
-                    walk::<S, ANY, _, _>(self.bvh, ray, self.others, |h| best.offer::<ANY>(h));
-                    *found = best.hit;
-                }
-                (self.put)(n * packet::RAYS + i, *found);
+            while alone != 0 {
+                let i = alone.trailing_zeros() as usize & (RAYS - 1);
+                alone &= alone - 1;
+                let mut best = Best { accept: |_: &RawHit| true, hit: None, t_max: rays[i].t_max };
+                walk::<S, ANY, _, _>(self.bvh, &rays[i], self.others, |h| best.offer::<ANY>(h));
+                self.answers.one(first + i, best.hit);
             }
         }
     }
@@ -238,15 +253,14 @@ impl Bvh {
         self.unit.run(Walk::<ANY, _, _, _, _> { bvh: self, ray, others, found: |h| best.offer::<ANY>(h) });
         best.hit
     }
-    /// The same for each ray of a list, without a choice; `put` takes the answers in order. `few` may be what [`Few::new`] made
-    /// of this tree.
+    /// The same for each ray of a list, without a choice. `few` may be what [`Few::new`] made of this tree.
     pub(crate) fn hits<const ANY: bool>(
         &self,
         few: Option<&Few>,
         rays: &[Ray],
         others: &impl Others,
-        put: impl FnMut(usize, Option<RawHit>),
+        answers: &mut impl Answers,
     ) {
-        self.unit.run(Walks::<ANY, _, _> { bvh: self, few, rays, others, put });
+        self.unit.run(Walks::<ANY, _, _> { bvh: self, few, rays, others, answers });
     }
 }

@@ -12,7 +12,7 @@ use bytemuck::{Pod, Zeroable};
 use sparrow_math::{Vec3, vec3};
 
 use super::cubic::Cubic;
-use crate::simd::{Floats, Portable, Simd, Unit};
+use crate::simd::{Floats, Mask, Portable, Simd, Unit};
 
 /// Boxes of a block.
 pub(super) const WIDTH: usize = 8;
@@ -154,19 +154,19 @@ impl ObbBlock {
         type F8 = <Portable as Simd>::F8;
         let splat = |v: f32| F8::splat(v);
         let (mut t0, mut t1) = (splat(0.0), splat(t_max));
-        let mut there = 0;
+        let mut there = <F8 as Floats<8>>::Mask::none();
         for (axes, bounds) in self.axes.iter().zip(&self.bounds) {
             let [x, y, z] = axes.map(|row| F8::load(&row.map(f32::from)));
             let dot = |v: Vec3<f32>| x * splat(v.x) + y * splat(v.y) + z * splat(v.z);
             let (o, d) = (dot(o), dot(d));
             let small = d.abs().lt(splat(TINY));
-            let inv = splat(1.0) / if small == 0 { d } else { splat(TINY).only_where(small, d) };
+            let inv = splat(1.0) / if small.bits() == 0 { d } else { splat(TINY).only_where(small, d) };
             let [lo, hi] = bounds.map(|b| F8::load(&b.map(f32::from)));
             let (a, b) = ((lo - (o + splat(pad))) * inv, (hi - (o - splat(pad))) * inv);
             (t0, t1) = (t0.max(a.min(b)), t1.min(a.max(b)));
             there = lo.lt(hi);
         }
-        Entries { mask: t0.le(t1 * splat(SLACK)) & there, t: t0.to_array() }
+        Entries { mask: (t0.le(t1 * splat(SLACK)) & there).bits(), t: t0.to_array() }
     }
 
     /// One box after the other: the twin of the others.

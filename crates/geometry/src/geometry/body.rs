@@ -4,7 +4,7 @@ use rayon::prelude::*;
 use sparrow_math::Aabb;
 
 use super::BuildBytes;
-use crate::bvh::{Kind, MAX_PRIMS, Others, PrimRef, RawHit};
+use crate::bvh::{Kind, MAX_PRIMS, Others, PrimRef, RAYS, RawHit};
 use crate::curve::{Curves, DeformingCurves};
 use crate::deforming::Deforming;
 use crate::instance::padded;
@@ -236,6 +236,17 @@ impl Others for Bodies {
             Body::Quadric(Some(q)) => q.hit(id, ray, t_max, found),
             Body::Deforming(d) => d.hit(id - local, ray, t_max, found),
             Body::Triangles(_) | Body::Quadric(None) => t_max,
+        }
+    }
+    #[inline(always)]
+    fn roots(&self, id: u32, o: &[[f32; RAYS]; 3], d: &[[f32; RAYS]; 3]) -> Option<[[f32; RAYS]; 2]> {
+        match &self.bodies[self.locate(id).0 as usize] {
+            Body::Quadric(Some(q)) => q.roots(o, d),
+            Body::Triangles(_)
+            | Body::Patches(_)
+            | Body::Curves(_)
+            | Body::Quadric(None)
+            | Body::Deforming(_) => None,
         }
     }
     #[inline(always)]

@@ -3,9 +3,48 @@
 use core::cell::Cell;
 
 use super::Geometry;
-use crate::bvh::RawHit;
+use super::body::Bodies;
+use crate::bvh::{Answers, Eight, RAYS, RawHit};
 use crate::instance::World;
 use crate::ray::{Hit, Ray};
+
+/// The nearest points of a list of rays.
+struct Nearest<'a> {
+    bodies: &'a Bodies,
+    out: &'a mut [Option<Hit>],
+}
+
+impl Answers for Nearest<'_> {
+    #[inline(always)]
+    fn one(&mut self, i: usize, hit: Option<RawHit>) {
+        self.out[i] = hit.map(|raw| self.bodies.to_hit(&raw));
+    }
+    #[inline(always)]
+    fn eight(&mut self, first: usize, hits: &Eight) {
+        for (i, out) in self.out[first..first + RAYS].iter_mut().enumerate() {
+            // Worked out where nothing is met too: which rays these are cannot be foreseen.
+            let (raw, met) = hits.get(i);
+            let hit = self.bodies.to_hit(&raw);
+            *out = met.then_some(hit);
+        }
+    }
+}
+
+/// Whether the rays of a list meet anything.
+struct Any<'a>(&'a mut [bool]);
+
+impl Answers for Any<'_> {
+    #[inline(always)]
+    fn one(&mut self, i: usize, hit: Option<RawHit>) {
+        self.0[i] = hit.is_some();
+    }
+    #[inline(always)]
+    fn eight(&mut self, first: usize, hits: &Eight) {
+        for (i, out) in self.0[first..first + RAYS].iter_mut().enumerate() {
+            *out = hits.get(i).1;
+        }
+    }
+}
 
 impl Geometry {
     /// The nearest point of the ray on any shape.
@@ -39,8 +78,8 @@ impl Geometry {
         if self.instances.len() > 0 {
             return self.intersect_many_where(rays, out, |_, _| true);
         }
-        let put = |i: usize, raw: Option<RawHit>| out[i] = raw.map(|raw| self.bodies.to_hit(&raw));
-        self.bvh.hits::<false>(self.few.as_ref(), rays, &self.bodies, put);
+        let mut answers = Nearest { bodies: &self.bodies, out };
+        self.bvh.hits::<false>(self.few.as_ref(), rays, &self.bodies, &mut answers);
     }
     /// [`occluded`](Self::occluded) for each of `rays`, into as many places of `out`; what is longer is not looked at.
     pub fn occluded_many(&self, rays: &[Ray], out: &mut [bool]) {
@@ -48,7 +87,7 @@ impl Geometry {
         if self.instances.len() > 0 {
             return self.occluded_many_where(rays, out, |_, _| true);
         }
-        self.bvh.hits::<true>(self.few.as_ref(), rays, &self.bodies, |i, raw| out[i] = raw.is_some());
+        self.bvh.hits::<true>(self.few.as_ref(), rays, &self.bodies, &mut Any(out));
     }
     /// [`intersect_where`](Self::intersect_where) for each of `rays`; `accept` is told the number of the ray.
     pub fn intersect_many_where(

@@ -1,12 +1,12 @@
 //! What is known of the points that rays met, one by one and many at once.
 
-use sparrow_math::Vec3;
+use sparrow_math::{MAX_WIDTH, Vec3};
 
 use super::Geometry;
 use super::body::Body;
-use crate::columns::{SurfaceColumns, SurfaceParts};
+use crate::columns::{PointBlock, SurfaceColumns, SurfaceParts};
 use crate::point::SurfacePoint;
-use crate::quadric::MIN_MANY;
+use crate::quadric::{Met, Quadric};
 use crate::ray::{Hit, Ray};
 
 impl Geometry {
@@ -38,7 +38,7 @@ impl Geometry {
     }
 
     /// [`surface`](Self::surface) of the hits numbered `which`, which this geometry gave for `rays`, the k-th to place k of the
-    /// columns, to the bit. Places of numbers without a hit are left as they are.
+    /// columns, to the bit. Places of numbers without a hit hold nothing of use.
     ///
     /// Panics for a hit of another geometry, or returns nonsense; and where there is no ray of such a number, or columns are shorter than
     /// `which`, rounded up to whole registers.
@@ -50,32 +50,59 @@ impl Geometry {
         parts: SurfaceParts,
         out: &mut SurfaceColumns<'_>,
     ) {
-        let plain = parts == SurfaceParts::default();
-        let mut k = 0;
-        while let Some(&i) = which.get(k) {
-            let (ray, hit) = (&rays[i as usize], &hits[i as usize]);
-            let n = if plain { self.quadric_many(rays, hits, &which[k..], k, out) } else { 0 };
-            if let (0, Some(hit)) = (n, hit) {
-                out.put(k, &self.surface(ray, hit), parts);
+        let (mut block, mut met) = (PointBlock::default(), Met::default());
+        for (n, which) in which.chunks(MAX_WIDTH).enumerate() {
+            match self.ball_of(hits, which).filter(|_| parts == SurfaceParts::default()) {
+                Some(ball) => {
+                    for (k, &i) in which.iter().enumerate() {
+                        let t = hits[i as usize].map_or(0.0, |hit| hit.t);
+                        met.set(k, &rays[i as usize], t);
+                    }
+                    ball.surface_many(&met, &mut block);
+                }
+                None => {
+                    self.ahead(hits, which);
+                    for (k, &i) in which.iter().enumerate() {
+                        if let Some(hit) = &hits[i as usize] {
+                            self.put(&rays[i as usize], hit, k, &mut block, parts);
+                        }
+                    }
+                }
             }
-            k += n.max(1);
+            out.write(n * MAX_WIDTH, &block, parts);
         }
     }
-    /// The surface at as many of the first hits as lie on one quadric of the world, if it has a way for many; their number, else 0.
+    /// Asks for what the surface at these hits will read, where the first of them lies on a mesh.
+    #[inline(always)]
+    fn ahead(&self, hits: &[Option<Hit>], which: &[u32]) {
+        let hit = |i: &u32| hits[*i as usize].as_ref();
+        let mesh = |hit: &Hit| match self.body(hit.shape) {
+            Some(Body::Triangles(m)) => Some(m),
+            Some(_) | None => None,
+        };
+        if which.first().and_then(hit).and_then(mesh).is_none() {
+            return;
+        }
+        let met = || which.iter().filter_map(hit).filter_map(|hit| Some((mesh(hit)?, hit.prim)));
+        met().for_each(|(m, prim)| m.indices_ahead(prim));
+        met().for_each(|(m, prim)| m.corners_ahead(prim));
+    }
+    /// The surface at a hit, to place `k` of a block.
+    #[inline(always)]
+    fn put(&self, ray: &Ray, hit: &Hit, k: usize, block: &mut PointBlock, parts: SurfaceParts) {
+        match (hit.instance, &self.bodies.bodies[hit.shape as usize]) {
+            (None, Body::Patches(m)) => m.put(hit, k, block, parts),
+            (None, Body::Triangles(m)) => block.put(k, &m.surface(hit), parts),
+            _ => block.put(k, &self.surface(ray, hit), parts),
+        }
+    }
+    /// The whole ball of the world on which all of these hits lie.
     #[inline]
-    fn quadric_many(
-        &self,
-        rays: &[Ray],
-        hits: &[Option<Hit>],
-        which: &[u32],
-        first: usize,
-        out: &mut SurfaceColumns<'_>,
-    ) -> usize {
-        let on = |i: u32| hits[i as usize].filter(|hit| hit.instance.is_none()).map(|hit| hit.shape);
-        let shape = on(which[0]);
-        let Some(Body::Quadric(Some(q))) = shape.and_then(|shape| self.body(shape)) else { return 0 };
-        let n = which.iter().take_while(|i| on(**i) == shape).count();
-        if n >= MIN_MANY && q.surface_many(rays, hits, &which[..n], first, out) { n } else { 0 }
+    fn ball_of(&self, hits: &[Option<Hit>], which: &[u32]) -> Option<&Quadric> {
+        let on = |i: &u32| hits[*i as usize].filter(|hit| hit.instance.is_none()).map(|hit| hit.shape);
+        let shape = on(which.first()?)?;
+        let Some(Body::Quadric(Some(q))) = self.body(shape) else { return None };
+        (q.is_ball() && which.iter().all(|i| on(i) == Some(shape))).then_some(q)
     }
 
     /// Derivatives of the shading normal by the texture coordinates at `hit`, which this geometry gave for `ray`.

@@ -29,23 +29,19 @@ enum Kind {
 /// What the tree knows of a primitive: all of it, or one of the two triangles of a parallelogram.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Part {
-    Whole,
-    First,
-    Second,
+    Whole = 0,
+    First = 1,
+    Second = 2,
 }
 
 impl Part {
     /// Parameters of the primitive for those that the tree found.
     #[inline(always)]
     pub(crate) fn parameters(self, u: f32, v: f32) -> [f32; 2] {
-        let sum = (u + v).min(1.0);
-        // Which of the two it is cannot be foreseen: values are chosen, not ways.
-        let (first, second) = (self == Part::First, self == Part::Second);
-        let or = |sum_here: bool, inside: bool, x: f32| {
-            let x = if inside { x.min(1.0) } else { x };
-            if sum_here { sum } else { x }
-        };
-        [or(first, second, u), or(second, first, v)]
+        // Which of the three it is cannot be foreseen: values are looked up, and no way is chosen.
+        const WHICH: [[usize; 2]; 3] = [[0, 1], [4, 3], [2, 4]];
+        let values = [u, v, u.min(1.0), v.min(1.0), (u + v).min(1.0)];
+        WHICH[self as usize].map(|i| values[i])
     }
 }
 

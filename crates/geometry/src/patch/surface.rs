@@ -4,6 +4,7 @@ use sparrow_math::{Vec3, vec3};
 
 use super::flat::p_error;
 use super::{Bilinear, Flat, Kind, Patches};
+use crate::columns::{PointBlock, SurfaceParts};
 use crate::point::SurfacePoint;
 use crate::ray::Hit;
 
@@ -112,11 +113,19 @@ impl Patches {
     }
 
     /// The surface at a hit; meanings as in pbrt-v4.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn surface(&self, hit: &Hit) -> SurfacePoint {
         match self.plain(hit.prim) {
             Some(flat) => flat.surface(hit),
             None => self.surface_of_any(hit),
+        }
+    }
+    /// The same, to place `k` of a block.
+    #[inline(always)]
+    pub(crate) fn put(&self, hit: &Hit, k: usize, block: &mut PointBlock, parts: SurfaceParts) {
+        match self.plain(hit.prim) {
+            Some(flat) => block.put(k, &flat.surface(hit), parts),
+            None => block.put(k, &self.surface_of_any(hit), parts),
         }
     }
     fn surface_of_any(&self, hit: &Hit) -> SurfacePoint {

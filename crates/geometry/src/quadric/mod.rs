@@ -10,11 +10,11 @@ mod sampling;
 
 use affine::Affine;
 use ball::Ball;
-pub(crate) use columns::MIN_MANY;
+pub(crate) use columns::Met;
 use form::{Form, Local};
 use sparrow_math::{Aabb, Transform, Vec3, vec3};
 
-use crate::bvh::RawHit;
+use crate::bvh::{RAYS, RawHit};
 use crate::point::SurfacePoint;
 use crate::ray::{Hit, Ray};
 use crate::shape::Shape;
@@ -93,6 +93,18 @@ impl Quadric {
 
     fn to_local(&self, ray: &Ray) -> (Vec3<f64>, Vec3<f64>) {
         (self.to_object.point(ray.o.to_f64()), self.to_object.vector(ray.d.to_f64()))
+    }
+
+    /// Where the lines of eight rays meet a whole ball, as [`Others::roots`](crate::bvh::Others::roots) says; `None` of others.
+    #[inline(always)]
+    pub(crate) fn roots(&self, o: &[[f32; RAYS]; 3], d: &[[f32; RAYS]; 3]) -> Option<[[f32; RAYS]; 2]> {
+        let ball = self.ball.as_ref()?;
+        let mut roots = [[0.0; RAYS]; 2];
+        for i in 0..RAYS {
+            let ray = Ray::new(vec3(o[0][i], o[1][i], o[2][i]), vec3(d[0][i], d[1][i], d[2][i]));
+            [roots[0][i], roots[1][i]] = ball.roots_or_nan(&ray).map(|t| t as f32);
+        }
+        Some(roots)
     }
 
     /// Offers the points of the ray on the quadric, the nearer one first; returns the last limit.

@@ -6,17 +6,19 @@
 #![allow(unsafe_code, reason = "vector registers; every operation is tested against f32")]
 
 use core::arch::x86_64::{
-    __m256, _CMP_LE_OQ, _CMP_LT_OQ, _MM_HINT_T0, _mm_loadu_ps, _mm_prefetch, _mm256_add_ps, _mm256_and_si256,
-    _mm256_andnot_ps, _mm256_blendv_ps, _mm256_broadcast_ps, _mm256_castps_si256, _mm256_castsi256_ps,
-    _mm256_cmp_ps, _mm256_cmpeq_epi32, _mm256_div_ps, _mm256_loadu_ps, _mm256_max_epi32, _mm256_max_ps,
-    _mm256_min_epi32, _mm256_min_ps, _mm256_movemask_ps, _mm256_mul_ps, _mm256_permutevar_ps,
-    _mm256_set1_epi32, _mm256_set1_ps, _mm256_setr_epi32, _mm256_storeu_ps, _mm256_sub_ps,
+    __m256, _CMP_LE_OQ, _CMP_LT_OQ, _MM_HINT_T0, _mm_loadu_ps, _mm_prefetch, _mm256_add_ps, _mm256_and_ps,
+    _mm256_andnot_ps, _mm256_blendv_ps, _mm256_broadcast_ps, _mm256_castps_si256, _mm256_castps128_ps256,
+    _mm256_castsi256_ps, _mm256_cmp_ps, _mm256_div_ps, _mm256_insertf128_ps, _mm256_loadu_ps,
+    _mm256_max_epi32, _mm256_max_ps, _mm256_min_epi32, _mm256_min_ps, _mm256_movemask_ps, _mm256_mul_ps,
+    _mm256_or_ps, _mm256_permutevar_ps, _mm256_set1_epi32, _mm256_set1_ps, _mm256_setzero_ps,
+    _mm256_shuffle_ps, _mm256_storeu_ps, _mm256_sub_ps, _mm256_unpackhi_ps, _mm256_unpacklo_ps,
+    _mm256_xor_ps,
 };
-use core::ops::{Add, Div, Mul, Sub};
+use core::ops::{Add, BitAnd, BitOr, Div, Mul, Not, Sub};
 
 use wide::f32x4;
 
-use super::{Floats, Kernel, Simd};
+use super::{Floats, Kernel, Mask, Simd};
 
 /// The processor has AVX2.
 #[derive(Clone, Copy, Debug)]
@@ -47,6 +49,14 @@ impl Simd for Avx2 {
     const EIGHT_IN_ONE: bool = true;
     type F4 = f32x4;
     type F8 = F8;
+    #[inline(always)]
+    fn columns(rows: &[[f32; 8]; 8]) -> [F8; 8] {
+        // Rows i and i + 4 in the halves of one register, so that nothing crosses between halves later.
+        let row = |i: usize| (F8::halves(&rows[i], &rows[i + 4], 0), F8::halves(&rows[i], &rows[i + 4], 4));
+        let [(a, e), (b, f), (c, g), (d, h)] = [row(0), row(1), row(2), row(3)];
+        let ([k0, k1, k2, k3], [k4, k5, k6, k7]) = (F8::columns(a, b, c, d), F8::columns(e, f, g, h));
+        [k0, k1, k2, k3, k4, k5, k6, k7]
+    }
 }
 
 /// Eight numbers in one register.
@@ -54,28 +64,87 @@ impl Simd for Avx2 {
 #[repr(transparent)]
 struct F8(__m256);
 
+/// Eight answers in one register: all bits of a lane set, or none.
+#[derive(Clone, Copy, Debug)]
+#[repr(transparent)]
+struct M8(__m256);
+
 /// Calls an intrinsic.
 macro_rules! avx {
     ($e:expr) => {
-        // SAFETY: values of this type exist only where AVX2 was found, see the head of the module.
+        // SAFETY: values of these types exist only where AVX2 was found, see the head of the module.
         unsafe { $e }
     };
 }
 
+impl F8 {
+    /// Four numbers of each of two rows, from number `at` on, which is 0 or 4.
+    #[inline(always)]
+    fn halves(low: &[f32; 8], high: &[f32; 8], at: usize) -> F8 {
+        let at = at & 4;
+        // SAFETY: four numbers follow in each row.
+        F8(avx!({
+            let low = _mm256_castps128_ps256(_mm_loadu_ps(low.as_ptr().add(at)));
+            _mm256_insertf128_ps::<1>(low, _mm_loadu_ps(high.as_ptr().add(at)))
+        }))
+    }
+    /// Transposes both halves, which are 4 x 4 each.
+    #[inline(always)]
+    fn columns(a: F8, b: F8, c: F8, d: F8) -> [F8; 4] {
+        avx!({
+            let (ab, cd) = (_mm256_unpacklo_ps(a.0, b.0), _mm256_unpacklo_ps(c.0, d.0));
+            let (ab2, cd2) = (_mm256_unpackhi_ps(a.0, b.0), _mm256_unpackhi_ps(c.0, d.0));
+            [
+                F8(_mm256_shuffle_ps::<0x44>(ab, cd)),
+                F8(_mm256_shuffle_ps::<0xee>(ab, cd)),
+                F8(_mm256_shuffle_ps::<0x44>(ab2, cd2)),
+                F8(_mm256_shuffle_ps::<0xee>(ab2, cd2)),
+            ]
+        })
+    }
+}
+
 macro_rules! operator {
-    ($($trait:ident $f:ident $intrinsic:ident),*) => { $(
-        impl $trait for F8 {
-            type Output = F8;
+    ($($trait:ident $f:ident $type:ident $intrinsic:ident),*) => { $(
+        impl $trait for $type {
+            type Output = $type;
             #[inline(always)]
-            fn $f(self, o: F8) -> F8 {
-                F8(avx!($intrinsic(self.0, o.0)))
+            fn $f(self, o: $type) -> $type {
+                $type(avx!($intrinsic(self.0, o.0)))
             }
         }
     )* }
 }
-operator!(Add add _mm256_add_ps, Sub sub _mm256_sub_ps, Mul mul _mm256_mul_ps, Div div _mm256_div_ps);
+operator!(
+    Add add F8 _mm256_add_ps,
+    Sub sub F8 _mm256_sub_ps,
+    Mul mul F8 _mm256_mul_ps,
+    Div div F8 _mm256_div_ps,
+    BitAnd bitand M8 _mm256_and_ps,
+    BitOr bitor M8 _mm256_or_ps
+);
+
+impl Not for M8 {
+    type Output = M8;
+    #[inline(always)]
+    fn not(self) -> M8 {
+        M8(avx!(_mm256_xor_ps(self.0, _mm256_castsi256_ps(_mm256_set1_epi32(-1)))))
+    }
+}
+
+impl Mask for M8 {
+    #[inline(always)]
+    fn none() -> M8 {
+        M8(avx!(_mm256_setzero_ps()))
+    }
+    #[inline(always)]
+    fn bits(self) -> u32 {
+        avx!(_mm256_movemask_ps(self.0)) as u32
+    }
+}
 
 impl Floats<8> for F8 {
+    type Mask = M8;
     #[inline(always)]
     fn splat(x: f32) -> F8 {
         F8(avx!(_mm256_set1_ps(x)))
@@ -113,19 +182,16 @@ impl Floats<8> for F8 {
         F8(avx!(_mm256_castsi256_ps(_mm256_max_epi32(_mm256_castps_si256(self.0), _mm256_castps_si256(o.0)))))
     }
     #[inline(always)]
-    fn le(self, o: F8) -> u32 {
-        avx!(_mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LE_OQ>(self.0, o.0))) as u32
+    fn le(self, o: F8) -> M8 {
+        M8(avx!(_mm256_cmp_ps::<_CMP_LE_OQ>(self.0, o.0)))
     }
     #[inline(always)]
-    fn lt(self, o: F8) -> u32 {
-        avx!(_mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LT_OQ>(self.0, o.0))) as u32
+    fn lt(self, o: F8) -> M8 {
+        M8(avx!(_mm256_cmp_ps::<_CMP_LT_OQ>(self.0, o.0)))
     }
     #[inline(always)]
-    fn only_where(self, bits: u32, o: F8) -> F8 {
-        let lanes = avx!(_mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128));
-        let set = avx!(_mm256_and_si256(_mm256_set1_epi32(bits as i32), lanes));
-        let mask = avx!(_mm256_castsi256_ps(_mm256_cmpeq_epi32(set, lanes)));
-        F8(avx!(_mm256_blendv_ps(o.0, self.0, mask)))
+    fn only_where(self, mask: M8, o: F8) -> F8 {
+        F8(avx!(_mm256_blendv_ps(o.0, self.0, mask.0)))
     }
     #[inline(always)]
     fn pick(table: &[f32; 4], at: F8) -> F8 {

@@ -7,14 +7,31 @@ mod avx2;
 mod portable;
 
 use core::fmt::Debug;
-use core::ops::{Add, Div, Mul, Sub};
+use core::ops::{Add, BitAnd, BitOr, Div, Mul, Not, Sub};
 
 pub(crate) use portable::Portable;
+
+/// Answers of comparisons side by side.
+pub(crate) trait Mask:
+    Copy + Debug + BitAnd<Output = Self> + BitOr<Output = Self> + Not<Output = Self>
+{
+    /// True nowhere.
+    fn none() -> Self;
+    /// Bit i says what answer i is.
+    fn bits(self) -> u32;
+    /// One is true.
+    #[inline(always)]
+    fn any(self) -> bool {
+        self.bits() != 0
+    }
+}
 
 /// `N` numbers side by side.
 pub(crate) trait Floats<const N: usize>:
     Copy + Debug + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
 {
+    /// What comparisons answer.
+    type Mask: Mask;
     fn splat(x: f32) -> Self;
     fn load(x: &[f32; N]) -> Self;
     fn to_array(self) -> [f32; N];
@@ -33,12 +50,12 @@ pub(crate) trait Floats<const N: usize>:
     fn max_nonneg(self, o: Self) -> Self {
         self.max(o)
     }
-    /// Bit i says whether `self[i] <= o[i]`.
-    fn le(self, o: Self) -> u32;
-    /// Bit i says whether `self[i] < o[i]`.
-    fn lt(self, o: Self) -> u32;
-    /// `self[i]` where bit i is set, else `o[i]`.
-    fn only_where(self, bits: u32, o: Self) -> Self;
+    /// Whether `self[i] <= o[i]`.
+    fn le(self, o: Self) -> Self::Mask;
+    /// Whether `self[i] < o[i]`.
+    fn lt(self, o: Self) -> Self::Mask;
+    /// `self[i]` where the mask is true, else `o[i]`.
+    fn only_where(self, mask: Self::Mask, o: Self) -> Self;
     /// `table[at[i] % 4]`, where `at` holds bits of whole numbers.
     fn pick(table: &[f32; 4], at: Self) -> Self;
 }
@@ -49,6 +66,18 @@ pub(crate) trait Simd {
     const EIGHT_IN_ONE: bool;
     type F4: Floats<4>;
     type F8: Floats<8>;
+    /// Number k of each of eight rows, for each k.
+    #[inline(always)]
+    fn columns(rows: &[[f32; 8]; 8]) -> [Self::F8; 8] {
+        let mut columns = [[0.0; 8]; 8];
+        for (i, row) in rows.iter().enumerate() {
+            for (column, x) in columns.iter_mut().zip(row) {
+                column[i] = *x;
+            }
+        }
+        let column = |k: usize| Self::F8::load(&columns[k]);
+        [column(0), column(1), column(2), column(3), column(4), column(5), column(6), column(7)]
+    }
 }
 
 /// Something to be computed with a vector unit that is only known when the program runs.

@@ -2,7 +2,9 @@
 
 use wide::{f32x4, f32x8};
 
-use super::{Floats, Simd};
+use core::ops::{BitAnd, BitOr, Not};
+
+use super::{Floats, Mask, Simd};
 
 /// SSE2, NEON, or single numbers.
 #[derive(Clone, Copy, Debug)]
@@ -14,9 +16,46 @@ impl Simd for Portable {
     type F8 = f32x8;
 }
 
+/// `N` answers, one bit each.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Bits<const N: usize>(u32);
+
+impl<const N: usize> BitAnd for Bits<N> {
+    type Output = Self;
+    #[inline(always)]
+    fn bitand(self, o: Self) -> Self {
+        Bits(self.0 & o.0)
+    }
+}
+impl<const N: usize> BitOr for Bits<N> {
+    type Output = Self;
+    #[inline(always)]
+    fn bitor(self, o: Self) -> Self {
+        Bits(self.0 | o.0)
+    }
+}
+impl<const N: usize> Not for Bits<N> {
+    type Output = Self;
+    #[inline(always)]
+    fn not(self) -> Self {
+        Bits(!self.0 & ((1 << N) - 1))
+    }
+}
+impl<const N: usize> Mask for Bits<N> {
+    #[inline(always)]
+    fn none() -> Self {
+        Bits(0)
+    }
+    #[inline(always)]
+    fn bits(self) -> u32 {
+        self.0
+    }
+}
+
 macro_rules! floats {
     ($type:ident, $n:literal) => {
         impl Floats<$n> for $type {
+            type Mask = Bits<$n>;
             #[inline(always)]
             fn splat(x: f32) -> $type {
                 $type::splat(x)
@@ -42,18 +81,18 @@ macro_rules! floats {
                 self.fast_max(o)
             }
             #[inline(always)]
-            fn le(self, o: $type) -> u32 {
-                self.simd_le(o).to_bitmask()
+            fn le(self, o: $type) -> Bits<$n> {
+                Bits(self.simd_le(o).to_bitmask())
             }
             #[inline(always)]
-            fn lt(self, o: $type) -> u32 {
-                self.simd_lt(o).to_bitmask()
+            fn lt(self, o: $type) -> Bits<$n> {
+                Bits(self.simd_lt(o).to_bitmask())
             }
             #[inline(always)]
-            fn only_where(self, bits: u32, o: $type) -> $type {
+            fn only_where(self, mask: Bits<$n>, o: $type) -> $type {
                 let (mut a, b) = (self.to_array(), o.to_array());
                 for (i, a) in a.iter_mut().enumerate() {
-                    *a = if bits >> i & 1 == 1 { *a } else { b[i] };
+                    *a = if mask.0 >> i & 1 == 1 { *a } else { b[i] };
                 }
                 $type::new(a)
             }

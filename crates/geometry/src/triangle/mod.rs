@@ -12,6 +12,7 @@ use crate::point::{ShapeSample, SurfacePoint};
 use crate::ray::Hit;
 use crate::sample::{Bilinear, SphericalTriangle, Viewpoint, WARPED, seen_from};
 use crate::shape::TriangleMesh;
+use crate::simd::prefetch;
 
 /// Triangles are drawn by area where they fill less of the sphere than this; values of pbrt-v4.
 const MIN_SOLID_ANGLE: f64 = 3e-4;
@@ -95,6 +96,21 @@ impl Triangles {
         let (m, at) = (&self.mesh, self.mesh.indices[prim as usize]);
         let of = |list: &[[f32; 3]]| (!list.is_empty()).then(|| pick(list, at));
         Corners { p: pick(&m.p, at), n: of(&m.n), s: of(&m.s), uv: texture_coordinates(&m.uv, at) }
+    }
+    /// Asks for the numbers of a triangle's corners ahead of their use.
+    #[inline(always)]
+    pub(crate) fn indices_ahead(&self, prim: u32) {
+        prefetch(&self.mesh.indices, prim as usize);
+    }
+    /// The same for what its corners carry.
+    #[inline(always)]
+    pub(crate) fn corners_ahead(&self, prim: u32) {
+        let m = &self.mesh;
+        for i in m.indices[prim as usize].map(|i| i as usize) {
+            prefetch(&m.p, i);
+            prefetch(&m.n, i);
+            prefetch(&m.uv, i);
+        }
     }
     /// The surface at a hit; meanings as in pbrt-v4.
     #[inline]

@@ -2,7 +2,7 @@
 
 use sparrow_geometry::{
     CurveBasis, CurveKind, Geometry, GeometryParts, Hit, Instance, MovingInstance, Ray, Shape, ShapeInstance,
-    SurfaceColumns, SurfaceParts, SurfacePoint, TriangleMesh,
+    SurfaceColumns, SurfaceParts, SurfacePoint,
 };
 use sparrow_math::{MAX_WIDTH, Motion, Transform, Vec3, vec3};
 
@@ -21,21 +21,14 @@ const UNTOUCHED: f32 = 1234.5;
 
 /// A mesh without some of what its corners may carry.
 fn without(s: &ShapeInstance, part: usize) -> ShapeInstance {
-    let less = |m: &TriangleMesh| {
-        let mut m = m.clone();
-        match part {
-            0 => m.n = Vec::new(),
-            1 => m.s = Vec::new(),
-            2 => m.uv = Vec::new(),
-            _ => (m.n, m.s) = (Vec::new(), Vec::new()),
-        }
-        m
-    };
-    let shape = match &s.shape {
-        Shape::Triangles(m) => Shape::Triangles(less(m)),
-        other => other.clone(),
-    };
-    ShapeInstance { shape, flip_normal: part % 2 == 1, ..s.clone() }
+    let Shape::Triangles(mut m) = s.shape.clone() else { unreachable!() };
+    match part {
+        0 => m.n = Vec::new(),
+        1 => m.s = Vec::new(),
+        2 => m.uv = Vec::new(),
+        _ => (m.n, m.s) = (Vec::new(), Vec::new()),
+    }
+    ShapeInstance { shape: Shape::Triangles(m), flip_normal: part % 2 == 1, ..s.clone() }
 }
 
 /// Shapes of every sort: standing and deforming, whole balls far and near, moved, turned and mirrored.
