@@ -25,7 +25,7 @@ mod triangle;
 pub use columns::{SurfaceColumns, SurfaceParts};
 pub use geometry::{BuildBytes, BuildStats, Geometry, GeometryParts};
 pub use instance::{Instance, MovingInstance};
-pub use point::{ShapeSample, SurfacePoint};
+pub use point::{RoundedPoint, SHADOW_END, ShapeSample, SurfacePoint};
 pub use progress::{BuildObserver, BuildProgress};
 pub use ray::{Hit, Ray};
 pub use sample::{SampleColumns, Viewpoint};

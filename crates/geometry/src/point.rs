@@ -1,11 +1,11 @@
 //! Points on surfaces: [`SurfacePoint`], met by a ray, and [`ShapeSample`], drawn at random.
 
-use sparrow_math::Vec3;
+use sparrow_math::{Real, Vec3, vec3};
 
 use crate::ray::{Hit, Ray};
 
-/// How far from the target a shadow ray ends, relative to its length; pbrt-v4's value.
-const SHADOW_GAP: f32 = 1e-4;
+/// Where a shadow ray ends, as a share of the way to its target; pbrt-v4's value.
+pub const SHADOW_END: f32 = 1.0 - 1e-4;
 
 /// The surface where a ray met it.
 #[derive(Clone, Copy, Debug)]
@@ -38,18 +38,46 @@ pub struct SurfacePoint {
 /// more than half of their distance, and never more than one and a half.
 const ULP: f32 = 0.5 * f32::EPSILON * (1.0 + f32::EPSILON);
 
-/// Moves `p` along the unit normal `n`, to the side of `w`, beyond its rounding error. [PharrJakobHumphreys2023, section 6.8.6]
-#[inline]
-pub(crate) fn offset_point(p: Vec3<f32>, p_error: Vec3<f32>, n: Vec3<f32>, w: Vec3<f32>) -> Vec3<f32> {
-    let d = n.abs().dot(p_error);
-    let offset = n * if w.dot(n) < 0.0 { -d } else { d };
-    // A step of one unit in the last place outwards; no step where there is no offset. A sum that is zero is exact.
-    let away = |p: f32, o: f32| {
-        let q = p + o;
-        let step = q + (q * ULP).copysign(o);
-        if o == 0.0 { p } else { step }
-    };
-    sparrow_math::vec3(away(p.x, offset.x), away(p.y, offset.y), away(p.z, offset.z))
+/// A point of a surface as arithmetic has it: for one point or for lanes of them.
+#[derive(Clone, Copy, Debug)]
+pub struct RoundedPoint<R> {
+    /// The point.
+    pub p: Vec3<R>,
+    /// Bound of its rounding error, component by component.
+    pub p_error: Vec3<R>,
+    /// Unit geometric normal.
+    pub n: Vec3<R>,
+}
+
+impl<R: Real> RoundedPoint<R> {
+    /// A point in space, of no surface.
+    #[inline(always)]
+    pub fn exact(p: Vec3<R>) -> Self {
+        RoundedPoint { p, p_error: Vec3::splat(R::ZERO), n: Vec3::splat(R::ZERO) }
+    }
+    /// The point, moved along the normal to the side of `w`, beyond its rounding error. [PharrJakobHumphreys2023, section 6.8.6]
+    #[inline(always)]
+    pub fn towards(&self, w: Vec3<R>) -> Vec3<R> {
+        let RoundedPoint { p, p_error, n } = *self;
+        let d = n.abs().dot(p_error);
+        let offset = n * R::select(w.dot(n).lt(R::ZERO), -d, d);
+        vec3(step_away(p.x, offset.x), step_away(p.y, offset.y), step_away(p.z, offset.z))
+    }
+    /// The shadow ray to another point, beside the rounding errors of both: origin, and direction of the length from end to end.
+    /// It runs to [`SHADOW_END`].
+    #[inline(always)]
+    pub fn segment_to(&self, end: &RoundedPoint<R>) -> (Vec3<R>, Vec3<R>) {
+        let o = self.towards(end.p - self.p);
+        (o, end.towards(o - end.p) - o)
+    }
+}
+
+/// `p + o`, and a step of one unit in the last place further; no step where there is no offset. A sum that is zero is exact.
+#[inline(always)]
+fn step_away<R: Real>(p: R, o: R) -> R {
+    let q = p + o;
+    let step = q + (q * R::of(f64::from(ULP))).copysign(o);
+    R::select(o.abs().gt(R::ZERO), step, p)
 }
 
 impl SurfacePoint {
@@ -76,23 +104,30 @@ impl SurfacePoint {
     pub fn h(&self) -> f32 {
         2.0 * self.uv[1] - 1.0
     }
+    /// Its place.
+    #[inline]
+    pub fn rounded(&self) -> RoundedPoint<f32> {
+        RoundedPoint { p: self.p, p_error: self.p_error, n: self.ng }
+    }
     /// The ray that leaves in direction `d` and does not meet its own surface again through rounding.
     #[inline]
     pub fn spawn(&self, d: Vec3<f32>) -> Ray {
-        Ray { time: self.time, ..Ray::new(offset_point(self.p, self.p_error, self.ng, d), d) }
+        Ray { time: self.time, ..Ray::new(self.rounded().towards(d), d) }
     }
     /// The shadow ray to a point in space; it ends just before.
     #[inline]
     pub fn spawn_to(&self, p: Vec3<f32>) -> Ray {
-        let o = offset_point(self.p, self.p_error, self.ng, p - self.p);
-        Ray { o, d: p - o, t_max: 1.0 - SHADOW_GAP, time: self.time }
+        self.segment(&RoundedPoint::exact(p))
     }
     /// The shadow ray to a point of another surface; it ends just before, and beside that surface's rounding error.
     #[inline]
     pub fn spawn_to_sample(&self, s: &ShapeSample) -> Ray {
-        let o = offset_point(self.p, self.p_error, self.ng, s.p - self.p);
-        let p = offset_point(s.p, s.p_error, s.n, o - s.p);
-        Ray { o, d: p - o, t_max: 1.0 - SHADOW_GAP, time: self.time }
+        self.segment(&RoundedPoint { p: s.p, p_error: s.p_error, n: s.n })
+    }
+    #[inline]
+    fn segment(&self, end: &RoundedPoint<f32>) -> Ray {
+        let (o, d) = self.rounded().segment_to(end);
+        Ray { o, d, t_max: SHADOW_END, time: self.time }
     }
 }
 
@@ -116,7 +151,6 @@ pub struct ShapeSample {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use sparrow_math::vec3;
 
     /// Where the offset itself is lost in rounding, the step to the next number remains.
     #[test]
@@ -126,7 +160,8 @@ mod tests {
             let p = vec3(x, 0.0, x);
             let tiny = vec3(1e-30, 0.0, 0.0);
             let n = vec3(1.0, 0.0, 0.0);
-            let (out, back) = (offset_point(p, tiny, n, n), offset_point(p, tiny, n, -n));
+            let point = RoundedPoint { p, p_error: tiny, n };
+            let (out, back) = (point.towards(n), point.towards(-n));
             assert_eq!((out.x, back.x), (x.next_up(), x.next_down()));
             assert_eq!((out.y, out.z), (0.0, x));
         }

@@ -3,6 +3,8 @@
 use std::fmt;
 use std::str::FromStr;
 
+use sparrow_math::Real;
+
 use crate::{Heuristic, Technique};
 
 /// How two techniques that can find the same light are joined. [Veach1997, sec. 9.2]
@@ -52,8 +54,8 @@ impl Mis {
         self == Mis::OneSample
     }
     /// Weight of a light sample, over the chance of its turn: density `p_light` against `p_bsdf`, both per steradian.
-    #[inline]
-    pub fn light_weight(self, p_light: f32, p_bsdf: f32) -> f32 {
+    #[inline(always)]
+    pub fn light_weight<R: Real>(self, p_light: R, p_bsdf: R) -> R {
         self.weight(p_light, p_bsdf, 0)
     }
     /// Weight of a light that a direction from the BSDF found, over the chance of its turn: density `p_bsdf` against `p_light`.
@@ -66,14 +68,14 @@ impl Mis {
     pub fn delta_weight(self) -> f32 {
         if self == Mis::OneSample { 2.0 } else { 1.0 }
     }
-    #[inline]
-    fn weight(self, p_light: f32, p_bsdf: f32, k: usize) -> f32 {
-        let both = [p_light, p_bsdf].map(|pdf| Technique { count: 1.0, pdf });
+    #[inline(always)]
+    fn weight<R: Real>(self, p_light: R, p_bsdf: R, k: usize) -> R {
+        let both = [Technique { count: R::ONE, pdf: p_light }, Technique { count: R::ONE, pdf: p_bsdf }];
         match self {
             Mis::Both(heuristic) => heuristic.weight(&both, k),
             Mis::Optimal => Heuristic::Balance.weight(&both, k),
-            Mis::OneSample => 2.0 * Heuristic::Balance.weight(&both, k),
-            Mis::LightOnly | Mis::BsdfOnly => 1.0,
+            Mis::OneSample => R::of(2.0) * Heuristic::Balance.weight(&both, k),
+            Mis::LightOnly | Mis::BsdfOnly => R::ONE,
         }
     }
 }

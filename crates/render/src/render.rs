@@ -135,7 +135,6 @@ fn observed<O: Observer>(
     let run = Run::new(scene, plan, how, options, stop, watch)?;
     let [width, height] = plan.size();
     let mut film = Film::new(width, height, options.variance);
-    let origins = run.origins();
     let total = u64::from(width) * u64::from(height) * u64::from(plan.samples_per_pixel);
     run.expect(total);
     let mut done = 0;
@@ -145,8 +144,9 @@ fn observed<O: Observer>(
         let own = if O::LEARNS { points_of_pass(&points, done, n) } else { None };
         let (sampler, samples) = own.as_ref().map_or((&points, done..done + n), |s| (s, 0..n));
         let exposure = Exposure::observed(sampler, film, observer);
-        let job = |&origin| Job { exposure: &exposure, origin, samples: samples.clone() };
-        let whole = run.pass(&origins.iter().map(job).collect::<Vec<Job<'_, O>>>())?;
+        let side = run.tile_side(n);
+        let job = |origin| Job { exposure: &exposure, origin, side, samples: samples.clone() };
+        let whole = run.pass(&run.origins(side).into_iter().map(job).collect::<Vec<Job<'_, O>>>())?;
         film = exposure.into_film();
         if !whole {
             break; // It was stopped within the pass.

@@ -17,8 +17,12 @@ use crate::roulette::{Learned, learn};
 use crate::sampler::Sampler;
 use crate::scene::Scene;
 
-/// Pixels along the side of a tile.
+/// Pixels along the side of a tile, at least.
 pub(crate) const TILE: u32 = 16;
+/// Camera samples that a tile should have: where they end, blocks of paths run half empty.
+const TILE_SAMPLES: u32 = 1 << 14;
+/// Tiles a thread should have, so that none waits for another for long.
+const TILES_PER_THREAD: u32 = 6;
 
 /// A film with the points that fill it, and who looks on.
 pub(crate) struct Exposure<'a, O = ()> {
@@ -50,6 +54,8 @@ impl<'a, O> Exposure<'a, O> {
 pub(crate) struct Job<'a, O = ()> {
     pub(crate) exposure: &'a Exposure<'a, O>,
     pub(crate) origin: [u32; 2],
+    /// Pixels along each side.
+    pub(crate) side: u32,
     pub(crate) samples: Range<u32>,
 }
 
@@ -136,11 +142,22 @@ impl<'a> Run<'a> {
         })
     }
 
-    /// First pixels of all tiles, row by row.
-    pub(crate) fn origins(&self) -> Vec<[u32; 2]> {
+    /// The side of tiles that get so many samples a pixel.
+    pub(crate) fn tile_side(&self, samples: u32) -> u32 {
+        let n_tiles = |side: u32| self.plan.size().map(|s| s.div_ceil(side)).iter().product::<u32>();
+        let least = TILES_PER_THREAD * self.pool.current_num_threads() as u32;
+        let mut side = TILE;
+        while side * side * samples < TILE_SAMPLES && n_tiles(2 * side) >= least {
+            side *= 2;
+        }
+        side
+    }
+
+    /// First pixels of all tiles of that side, row by row.
+    pub(crate) fn origins(&self, side: u32) -> Vec<[u32; 2]> {
         let [width, height] = self.plan.size();
-        (0..height.div_ceil(TILE))
-            .flat_map(|y| (0..width.div_ceil(TILE)).map(move |x| [x * TILE, y * TILE]))
+        (0..height.div_ceil(side))
+            .flat_map(|y| (0..width.div_ceil(side)).map(move |x| [x * side, y * side]))
             .collect()
     }
 
@@ -238,9 +255,9 @@ impl<'a> Run<'a> {
         job: &Job<'j, O>,
         block: &mut Block<'j, <O::Tile as TileObserver>::Record>,
     ) -> Result<(), RenderError> {
-        let Job { exposure, origin, samples } = job;
-        let film = exposure.film().tile(*origin, [TILE, TILE]);
-        let observer = exposure.observer.tile(*origin, [TILE, TILE]);
+        let Job { exposure, origin, side, samples } = job;
+        let film = exposure.film().tile(*origin, [*side; 2]);
+        let observer = exposure.observer.tile(*origin, [*side; 2]);
         let [w, h] = film.size();
         let learned = self.learned.as_ref();
         let mut tile = Exposed { plan: self.plan, how: self.how, learned, film, observer };

@@ -140,7 +140,7 @@ impl Scene {
             w.terminate_secondary();
         }
         let ctx = self.texture_context_of(material, point);
-        let h = fibre_offset(point);
+        let h = fibre_offset(point.uv[1]);
         Some(Scatter::new(point, material.bind(&self.textures, &ctx, h, w)))
     }
 
@@ -164,26 +164,14 @@ impl Scene {
         !self.occluded(&shadow_ray(point, s))
     }
 
-    /// [`intersect`](Self::intersect) for each of `rays`, into as many places of `points`.
-    pub(crate) fn intersect_many(
-        &self,
-        rays: &[Ray],
-        hits: &mut Vec<Option<Hit>>,
-        points: &mut Vec<Option<SurfacePoint>>,
-    ) {
-        points.clear();
-        if self.asks_hits {
-            points.extend(rays.iter().map(|ray| self.intersect(ray)));
-            return;
-        }
+    /// What [`intersect`](Self::intersect) finds for each of `rays`, into `hits`.
+    pub(crate) fn intersect_many(&self, rays: &[Ray], hits: &mut Vec<Option<Hit>>) {
         hits.clear();
         hits.resize(rays.len(), None);
-        self.geometry.intersect_many(rays, hits);
-        for (ray, hit) in rays.iter().zip(hits) {
-            match hit {
-                Some(hit) => points.push(Some(self.geometry.surface(ray, hit))),
-                None => points.push(None),
-            }
+        if self.asks_hits {
+            self.geometry.intersect_many_where(rays, hits, |i, h| self.is_there(&rays[i], h));
+        } else {
+            self.geometry.intersect_many(rays, hits);
         }
     }
 
@@ -198,10 +186,10 @@ impl Scene {
         self.geometry.occluded_many(rays, out);
     }
 
-    /// The material of a point; none where rays pass unchanged.
+    /// The material of a shape; none where rays pass unchanged.
     #[inline]
-    pub(crate) fn material_of(&self, point: &SurfacePoint) -> Option<u32> {
-        self.material_of_shape[point.shape as usize]
+    pub(crate) fn material_of(&self, shape: u32) -> Option<u32> {
+        self.material_of_shape[shape as usize]
     }
     /// The textures.
     pub(crate) fn textures(&self) -> &Textures {
@@ -250,8 +238,8 @@ pub(crate) fn shadow_ray(point: &SurfacePoint, s: &LightSample) -> Ray {
 }
 
 /// The ray's offset from the axis of a fibre, in radii: `2 v - 1`, as pbrt-v4 has it on any shape.
-pub(crate) fn fibre_offset(point: &SurfacePoint) -> f32 {
-    (2.0 * point.uv[1] - 1.0).clamp(-1.0, 1.0)
+pub(crate) fn fibre_offset(v: f32) -> f32 {
+    (2.0 * v - 1.0).clamp(-1.0, 1.0)
 }
 
 /// The change of (u, v) that comes nearest to moving the point by `dp`, by least squares.

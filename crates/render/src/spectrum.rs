@@ -2,10 +2,11 @@
 
 use std::sync::Arc;
 
+use sparrow_math::{InLanes, Real, in_lanes};
 use sparrow_scene::SpectrumDesc;
 use sparrow_spectra::{
-    DenseSpectrum, RgbRole, Sigmoid, Spectrum, Wavelengths, blackbody_normalized, named_spectrum,
-    photometric, rgb_spectrum_exact,
+    DenseSpectrum, LAMBDA_MIN, N_LAMBDA, RgbRole, Sigmoid, Spectrum, Wavelengths, blackbody_normalized,
+    named_spectrum, photometric, rgb_spectrum_exact,
 };
 
 /// A spectrum ready for lookup at a path's wavelengths.
@@ -60,6 +61,27 @@ impl SceneSpectrum {
         }
     }
 
+    /// Values times `scale` at the wavelengths of `n` paths, in lanes: [`at`](Self::at) to the bit.
+    pub(crate) fn fill(&self, scale: f32, nm: [&[f32]; N_LAMBDA], n: usize, mut out: [&mut [f32]; N_LAMBDA]) {
+        let constant = |c: &Spectrum<f32>, out: [&mut [f32]; N_LAMBDA]| {
+            out.into_iter().zip(c.0).for_each(|(column, v)| column[..n].fill(v * scale));
+        };
+        match self {
+            SceneSpectrum::Constant(v) => constant(&Spectrum::splat(*v), out),
+            SceneSpectrum::Channels(c) => constant(c, out),
+            SceneSpectrum::Sigmoid(own, s) => {
+                for (nm, out) in nm.iter().zip(&mut out) {
+                    in_lanes(FillSigmoid { c: s.c, scales: [*own, scale], nm, out, n });
+                }
+            }
+            SceneSpectrum::Dense(table) => {
+                for (nm, out) in nm.iter().zip(&mut out) {
+                    in_lanes(FillDense { table: table.values(), scale, nm, out, n });
+                }
+            }
+        }
+    }
+
     /// Multiplied by a number.
     #[must_use]
     pub(crate) fn scaled(&self, s: f32) -> SceneSpectrum {
@@ -93,6 +115,48 @@ impl SceneSpectrum {
             SceneSpectrum::Channels(c) => {
                 DenseSpectrum::from_fn(|l| c[if l < 490.0 { 2 } else { usize::from(l < 580.0) }])
             }
+        }
+    }
+}
+
+struct FillSigmoid<'a> {
+    c: [f32; 3],
+    scales: [f32; 2],
+    nm: &'a [f32],
+    out: &'a mut [f32],
+    n: usize,
+}
+
+impl InLanes for FillSigmoid<'_> {
+    type Output = ();
+    #[inline(always)]
+    fn run<R: Real>(self) {
+        let [a, b, c] = self.c;
+        let c = [R::of(a.into()), R::of(b.into()), R::of(c.into())];
+        let [own, scale] = self.scales;
+        for k in (0..self.n).step_by(R::WIDTH) {
+            let v = Sigmoid::eval(c, R::load(self.nm, k)) * R::of(own.into()) * R::of(scale.into());
+            v.store(self.out, k);
+        }
+    }
+}
+
+struct FillDense<'a> {
+    table: &'a [f32],
+    scale: f32,
+    nm: &'a [f32],
+    out: &'a mut [f32],
+    n: usize,
+}
+
+impl InLanes for FillDense<'_> {
+    type Output = ();
+    #[inline(always)]
+    fn run<R: Real>(self) {
+        for k in (0..self.n).step_by(R::WIDTH) {
+            // The nearest whole nanometre, as `Wavelengths` has it.
+            let place = R::load(self.nm, k) - R::of(f64::from(LAMBDA_MIN)) + R::of(0.5);
+            (place.look_up(self.table) * R::of(self.scale.into())).store(self.out, k);
         }
     }
 }

@@ -64,18 +64,17 @@ impl<R: Real> Spectrum<R> {
     pub fn average(self) -> R {
         ((self.0[0] + self.0[1]) + (self.0[2] + self.0[3])) * R::of(0.25)
     }
-}
-
-impl Spectrum<f32> {
     /// Zero at every wavelength: the path carries nothing any more.
-    #[inline]
-    pub fn is_black(self) -> bool {
-        self.0.iter().all(|v| v.abs() <= 0.0)
+    #[inline(always)]
+    pub fn is_black(self) -> R::Mask {
+        let [a, b, c, d] = self.0;
+        a.abs().le(R::ZERO) & b.abs().le(R::ZERO) & c.abs().le(R::ZERO) & d.abs().le(R::ZERO)
     }
     /// No value is NaN or infinite.
-    #[inline]
-    pub fn is_finite(self) -> bool {
-        self.0.iter().all(|v| v.is_finite())
+    #[inline(always)]
+    pub fn is_finite(self) -> R::Mask {
+        let ([a, b, c, d], end) = (self.0, R::of(f64::INFINITY));
+        a.abs().lt(end) & b.abs().lt(end) & c.abs().lt(end) & d.abs().lt(end)
     }
 }
 

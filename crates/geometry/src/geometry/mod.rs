@@ -198,8 +198,9 @@ impl Geometry {
             Some(_) | None => false,
         }
     }
-    /// [`sample_from`](Self::sample_from) from each of the first `n` viewpoints of `columns`, in lanes, to the bit; `put` is given the
-    /// number of each and what was drawn. False, and nothing done, where such primitives are drawn one by one.
+    /// [`sample_from`](Self::sample_from) from each of the first `n` viewpoints of `columns`, in lanes, to the bit: where that gives
+    /// nothing the density is zero. Returns the bound of the rounding error of all points; `None`, and nothing done, where such
+    /// primitives are drawn one by one.
     ///
     /// Panics where columns are shorter than `n`, rounded up to whole registers.
     pub fn sample_from_many(
@@ -208,13 +209,12 @@ impl Geometry {
         prim: u32,
         columns: &mut SampleColumns<'_>,
         n: usize,
-        put: impl FnMut(usize, Option<ShapeSample>),
-    ) -> bool {
+    ) -> Option<Vec3<f32>> {
         match self.body(shape) {
-            Some(Body::Patches(m)) => m.sample_from_many(prim, columns, n, put),
-            Some(Body::Quadric(Some(q))) => q.sample_from_many(columns, n, put),
+            Some(Body::Patches(m)) => m.sample_from_many(prim, columns, n),
+            Some(Body::Quadric(Some(q))) => q.sample_from_many(columns, n),
             Some(Body::Triangles(_) | Body::Curves(_) | Body::Quadric(None) | Body::Deforming(_)) | None => {
-                false
+                None
             }
         }
     }

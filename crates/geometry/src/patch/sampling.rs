@@ -6,7 +6,7 @@ use super::flat::Flat;
 use super::surface::Place;
 use super::{Bilinear, Kind, Patches};
 use crate::point::ShapeSample;
-use crate::sample::{Bilinear as Density, Draw, Drawn, Rectangle, SampleColumns, Viewpoint, seen_from};
+use crate::sample::{Bilinear as Density, Draw, Rectangle, SampleColumns, Viewpoint, seen_from};
 
 /// Close to uniform by area: the area elements at the corners.
 fn by_area(p: &Bilinear) -> Density<f64> {
@@ -61,35 +61,35 @@ impl Patches {
     pub(crate) fn is_rectangle(&self, prim: u32) -> bool {
         self.rectangle(prim).is_some()
     }
+    /// The normal of a rectangle at a point of it.
     #[inline]
-    fn drawn(&self, prim: u32, flat: &Flat, drawn: &Drawn<f32>) -> Option<ShapeSample> {
-        let n = if self.mesh.n.is_empty() {
-            flat.n
-        } else {
-            let [u, v] = flat.parameters_of(drawn.p);
-            self.shading_normal(prim, u, v).map_or(flat.n, |ns| flat.n.facing(ns))
-        };
-        drawn.sample(flat.p_error_of_samples(), n)
+    fn normal_at(&self, prim: u32, flat: &Flat, p: Vec3<f32>) -> Vec3<f32> {
+        if self.mesh.n.is_empty() {
+            return flat.n;
+        }
+        let [u, v] = flat.parameters_of(p);
+        self.shading_normal(prim, u, v).map_or(flat.n, |ns| flat.n.facing(ns))
     }
     #[inline]
     pub(crate) fn sample_from(&self, prim: u32, from: &Viewpoint, u: [f32; 2]) -> Option<ShapeSample> {
-        match self.rectangle(prim) {
-            Some((flat, r)) => self.drawn(prim, flat, &r.draw_one(from, u)),
-            None => seen_from(self.sample_area(prim, u)?, from.p),
-        }
+        let Some((flat, r)) = self.rectangle(prim) else {
+            return seen_from(self.sample_area(prim, u)?, from.p);
+        };
+        let drawn = r.draw_one(from, u);
+        drawn.sample(flat.p_error_of_samples(), self.normal_at(prim, flat, drawn.p))
     }
-    /// [`sample_from`](Self::sample_from) from each of `n` viewpoints; false where the patch is no rectangle.
+    /// [`sample_from`](Self::sample_from) from each of `n` viewpoints: the error of the points, or none where the patch is no
+    /// rectangle.
     pub(crate) fn sample_from_many(
         &self,
         prim: u32,
         columns: &mut SampleColumns<'_>,
         n: usize,
-        mut put: impl FnMut(usize, Option<ShapeSample>),
-    ) -> bool {
-        let Some((flat, r)) = self.rectangle(prim) else { return false };
+    ) -> Option<Vec3<f32>> {
+        let (flat, r) = self.rectangle(prim)?;
         columns.draw(r, n);
-        (0..n).for_each(|k| put(k, self.drawn(prim, flat, &columns.get(k))));
-        true
+        columns.set_normals(n, |p| self.normal_at(prim, flat, p));
+        Some(flat.p_error_of_samples())
     }
     /// Density per steradian of [`sample_from`](Self::sample_from) for a direction that met the patch at `hit_p`
     /// with normal `hit_n`; `per_area` turns densities per area into it.

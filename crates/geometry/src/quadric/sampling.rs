@@ -4,7 +4,7 @@ use sparrow_math::Vec3;
 
 use super::{Quadric, p_error};
 use crate::point::ShapeSample;
-use crate::sample::{Draw, Drawn, SampleColumns, Viewpoint, seen_from};
+use crate::sample::{Draw, SampleColumns, Viewpoint, seen_from};
 
 /// Points an axis of the rule that measures areas under maps that stretch unevenly.
 const AREA_STEPS: u32 = 64;
@@ -51,26 +51,21 @@ impl Quadric {
     #[inline]
     pub(crate) fn sample_from(&self, from: &Viewpoint, u: [f32; 2]) -> Option<ShapeSample> {
         match &self.ball {
-            Some(ball) => self.drawn(&ball.single.draw_one(from, u)),
+            Some(ball) => {
+                let drawn = ball.single.draw_one(from, u);
+                drawn.sample(ball.single.p_error(), if self.flip { -drawn.n } else { drawn.n })
+            }
             None => seen_from(self.sample_area(u)?, from.p),
         }
     }
-    #[inline]
-    fn drawn(&self, drawn: &Drawn<f32>) -> Option<ShapeSample> {
+    /// [`sample_from`](Self::sample_from) from each of `n` viewpoints: the error of the points, or none where this is no whole ball.
+    pub(crate) fn sample_from_many(&self, columns: &mut SampleColumns<'_>, n: usize) -> Option<Vec3<f32>> {
         let ball = self.ball.as_ref()?;
-        drawn.sample(ball.single.p_error(), if self.flip { -drawn.n } else { drawn.n })
-    }
-    /// [`sample_from`](Self::sample_from) from each of `n` viewpoints; false where this is no whole ball.
-    pub(crate) fn sample_from_many(
-        &self,
-        columns: &mut SampleColumns<'_>,
-        n: usize,
-        mut put: impl FnMut(usize, Option<ShapeSample>),
-    ) -> bool {
-        let Some(ball) = &self.ball else { return false };
         columns.draw(&ball.single, n);
-        (0..n).for_each(|k| put(k, self.drawn(&columns.get(k))));
-        true
+        if self.flip {
+            columns.on.iter_mut().flat_map(|c| &mut c[..n]).for_each(|x| *x = -*x);
+        }
+        Some(ball.single.p_error())
     }
     /// Density per steradian of [`sample_from`](Self::sample_from) for a direction that met the surface with world
     /// normal `n`; `per_area` turns densities per area into it.

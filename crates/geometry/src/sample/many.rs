@@ -29,12 +29,21 @@ pub(crate) struct Drawn<R> {
     pub(crate) pdf: R,
 }
 
+impl<R: Real> Drawn<R> {
+    /// False where the point is seen edge-on, lies at the viewpoint, or where the shape is too small a target.
+    #[inline(always)]
+    fn is_there(&self) -> R::Mask {
+        let (most, p) = (R::of(f64::from(f32::MAX)), self.p.abs());
+        let finite = p.x.le(most) & p.y.le(most) & p.z.le(most);
+        self.pdf.gt(R::ZERO) & self.pdf.lt(most) & self.distance.gt(R::ZERO) & finite
+    }
+}
+
 impl Drawn<f32> {
-    /// `None` where the point is seen edge-on, lies at the viewpoint, or where the shape is too small a target.
+    /// `None` where nothing is there.
     #[inline]
     pub(crate) fn sample(&self, p_error: Vec3<f32>, n: Vec3<f32>) -> Option<ShapeSample> {
-        let there = self.pdf > 0.0 && self.pdf < f32::MAX && self.distance > 0.0 && self.p.is_finite();
-        there.then_some(ShapeSample {
+        self.is_there().then_some(ShapeSample {
             p: self.p,
             p_error,
             n,
@@ -63,7 +72,7 @@ pub struct SampleColumns<'a> {
     pub wi: [&'a mut [f32]; 3],
     /// Distances.
     pub distance: &'a mut [f32],
-    /// Densities per steradian.
+    /// Densities per steradian; zero where nothing was drawn.
     pub pdf: &'a mut [f32],
 }
 
@@ -72,16 +81,11 @@ impl SampleColumns<'_> {
     pub(crate) fn draw(&mut self, shape: &impl Draw, n: usize) {
         in_lanes(Many { shape, columns: self, n });
     }
-    /// What was drawn from viewpoint `k`.
-    #[inline]
-    pub(crate) fn get(&self, k: usize) -> Drawn<f32> {
-        let vector = |c: &[&mut [f32]; 3]| vec3(c[0][k], c[1][k], c[2][k]);
-        Drawn {
-            p: vector(&self.p),
-            n: vector(&self.on),
-            wi: vector(&self.wi),
-            distance: self.distance[k],
-            pdf: self.pdf[k],
+    /// Writes the normal at each of the first `n` points that were drawn, from the point.
+    pub(crate) fn set_normals(&mut self, n: usize, normal_at: impl Fn(Vec3<f32>) -> Vec3<f32>) {
+        for k in 0..n {
+            let normal = normal_at(vec3(self.p[0][k], self.p[1][k], self.p[2][k]));
+            self.on.iter_mut().zip(normal.to_array()).for_each(|(column, x)| column[k] = x);
         }
     }
 }
@@ -104,7 +108,7 @@ impl<S: Draw> InLanes for Many<'_, '_, S> {
             store(drawn.n, &mut c.on, k);
             store(drawn.wi, &mut c.wi, k);
             drawn.distance.store(c.distance, k);
-            drawn.pdf.store(c.pdf, k);
+            drawn.pdf.only_where(drawn.is_there()).store(c.pdf, k);
         }
     }
 }

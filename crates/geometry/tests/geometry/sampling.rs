@@ -292,10 +292,19 @@ fn lanes_draw_what_is_drawn_one_by_one() {
                 distance,
                 pdf,
             };
-            let mut many = vec![None; N];
-            assert!(g.sample_from_many(0, 0, &mut columns, N, |k, s| many[k] = s), "shape {i}");
-            for (k, many) in many.iter().enumerate() {
+            let p_error = g.sample_from_many(0, 0, &mut columns, N).expect("there are lanes");
+            let vector = |c: &[&mut [f32]; 3], k: usize| vec3(c[0][k], c[1][k], c[2][k]);
+            for k in 0..N {
                 let one = g.sample_from(0, 0, Viewpoint { p: from[k], n: Some(normals[k]) }, u[k]);
+                let pdf = columns.pdf[k];
+                let many = (pdf > 0.0).then(|| ShapeSample {
+                    p: vector(&columns.p, k),
+                    p_error,
+                    n: vector(&columns.on, k),
+                    wi: vector(&columns.wi, k),
+                    distance: columns.distance[k],
+                    pdf,
+                });
                 assert_eq!(one.as_ref().map(bits), many.as_ref().map(bits), "shape {i} from {:?}", from[k]);
                 n_drawn += usize::from(one.is_some());
             }
@@ -314,5 +323,5 @@ fn lanes_draw_what_is_drawn_one_by_one() {
         distance: &mut [],
         pdf: &mut [],
     };
-    assert!(!g.sample_from_many(0, 0, &mut none, 0, |_, _| ()));
+    assert!(g.sample_from_many(0, 0, &mut none, 0).is_none());
 }

@@ -95,7 +95,7 @@ struct Adaptive<'a> {
 impl<'a> Adaptive<'a> {
     fn new(run: &'a Run<'a>, exposures: &'a [Exposure<'a>; 2], plan: &RenderPlan) -> Adaptive<'a> {
         let [width, height] = plan.size();
-        let origins = run.origins();
+        let origins = run.origins(TILE);
         let side = |origin: u32, end: u32| f64::from((end - origin).min(TILE));
         let pixels = origins.iter().map(|[x, y]| side(*x, width) * side(*y, height)).collect();
         let counts = [vec![0; origins.len()], vec![0; origins.len()]];
@@ -123,7 +123,7 @@ impl<'a> Adaptive<'a> {
             for (h, exposure) in self.exposures.iter().enumerate() {
                 let samples = self.counts[h][tile]..to[h][tile];
                 if !samples.is_empty() {
-                    jobs.push(Job { exposure, origin, samples });
+                    jobs.push(Job { exposure, origin, side: TILE, samples });
                 }
             }
         }

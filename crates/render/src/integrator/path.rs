@@ -1,13 +1,13 @@
 //! The path tracer: next-event estimation and BSDF sampling joined by MIS.
 
 use sparrow_geometry::{Ray, SurfacePoint};
-use sparrow_math::Vec3;
+use sparrow_math::{Real, Vec3};
 use sparrow_mis::Mis;
 use sparrow_scene::{IntegratorDesc, IntegratorName, RouletteName};
 use sparrow_spectra::{Spectrum, Wavelengths};
 
 use super::{Finder, RayCounts, Record};
-use crate::light::{LightSample, LitPoint};
+use crate::light::LitPoint;
 use crate::roulette::Roulette;
 use crate::sampler::PixelSampler;
 use crate::scatter::{Density, Scatter};
@@ -133,8 +133,7 @@ impl PathIntegrator {
             sampler.set_dimension(scatter_dimension(depth));
             let (lobe, dir) = (sampler.get_1d(), sampler.get_2d());
             let Some(s) = bsdf.sample(wo, lobe, dir) else { break };
-            beta *= s.weight * (1.0 / n);
-            eta_scale *= s.eta * s.eta * n;
+            (beta, eta_scale) = carried((beta, eta_scale), s.weight, s.eta, n);
             match s.density {
                 Density::SolidAngle(pdf) => {
                     n_smooth += 1;
@@ -187,28 +186,47 @@ impl PathIntegrator {
         if !scene.unoccluded(point, &light) {
             return Spectrum::ZERO;
         }
-        let s = Scattered::new(self.mis, &light, f_cos, n * pdf);
+        let s = Scattered::new(self.mis, (light.pdf, light.delta), light.radiance, f_cos, n * pdf);
         found(s.unweighted, s.weight);
         s.weighted
     }
 }
 
-/// What a light that is seen adds at a vertex.
-pub(super) struct Scattered {
-    /// `f_cos L / p_light`
-    pub(super) unweighted: Spectrum<f32>,
-    /// The MIS weight.
-    pub(super) weight: f32,
-    /// Their product.
-    pub(super) weighted: Spectrum<f32>,
+/// What a path carries behind a vertex, and the factor that undoes the squeeze of refraction, where it draws one of `ways` directions.
+#[inline(always)]
+pub(super) fn carried<R: Real>(
+    (beta, eta_scale): (Spectrum<R>, R),
+    weight: Spectrum<R>,
+    eta: R,
+    ways: R,
+) -> (Spectrum<R>, R) {
+    (beta * (weight * (R::ONE / ways)), eta_scale * (eta * eta * ways))
 }
 
-impl Scattered {
-    /// From value times cosine towards the light, and the density with which the BSDF draws that direction, times how often.
-    #[inline]
-    pub(super) fn new(mis: Mis, light: &LightSample, f_cos: Spectrum<f32>, pdf: f32) -> Scattered {
-        let w = if light.delta { mis.delta_weight() } else { mis.light_weight(light.pdf, pdf) };
-        let arrives = f_cos * light.radiance;
-        Scattered { unweighted: arrives * (1.0 / light.pdf), weight: w, weighted: arrives * (w / light.pdf) }
+/// What a light that is seen adds at a vertex.
+pub(super) struct Scattered<R> {
+    /// `f_cos L / p_light`
+    pub(super) unweighted: Spectrum<R>,
+    /// The MIS weight.
+    pub(super) weight: R,
+    /// Their product.
+    pub(super) weighted: Spectrum<R>,
+}
+
+impl<R: Real> Scattered<R> {
+    /// From the density of the light sample, and whether no direction finds it by chance; its radiance; value times cosine towards it;
+    /// and the density with which the BSDF draws that direction, times how often.
+    #[inline(always)]
+    pub(super) fn new(
+        mis: Mis,
+        (p_light, delta): (R, R::Mask),
+        radiance: Spectrum<R>,
+        f_cos: Spectrum<R>,
+        p_bsdf: R,
+    ) -> Scattered<R> {
+        let shared = mis.light_weight(p_light, p_bsdf);
+        let weight = R::select(delta, R::of(f64::from(mis.delta_weight())), shared);
+        let arrives = f_cos * radiance;
+        Scattered { unweighted: arrives * (R::ONE / p_light), weight, weighted: arrives * (weight / p_light) }
     }
 }

@@ -69,41 +69,75 @@ impl Eight {
         self.two_sided[i] = f32::from(u8::from(b.cone.two_sided));
     }
 
-    /// About how much light each sends to a point. [ContyKulla2018, eq. 3]
+    /// About how much light each sends to a point.
     #[inline(always)]
     pub(super) fn importances<R: Real>(&self, at: &LitPoint) -> Column {
         let mut out = [0.0; EIGHT];
+        let spread = |v: Vec3<f32>| vec3(R::of(v.x.into()), R::of(v.y.into()), R::of(v.z.into()));
         for i in (0..EIGHT).step_by(R::WIDTH) {
-            self.importance::<R>(i, at).store(&mut out, i);
+            self.read(|c| R::load(c, i)).importance(spread(at.p), spread(at.n)).store(&mut out, i);
         }
         out
     }
 
+    /// The bounds in place `i`, in every lane.
+    #[inline(always)]
+    pub(super) fn spread<R: Real>(&self, i: usize) -> Bounds<R> {
+        self.read(|c| R::of(c[i % EIGHT].into()))
+    }
+
+    #[inline(always)]
+    fn read<R: Real>(&self, of: impl Fn(&Column) -> R) -> Bounds<R> {
+        let [x, y, z] = &self.center;
+        let [ax, ay, az] = &self.axis;
+        Bounds {
+            power: of(&self.power),
+            center: vec3(of(x), of(y), of(z)),
+            radius: of(&self.radius),
+            axis: vec3(of(ax), of(ay), of(az)),
+            normals: (of(&self.cos_normals), of(&self.sin_normals)),
+            cos_emission: of(&self.cos_emission),
+            two_sided: of(&self.two_sided),
+        }
+    }
+}
+
+/// Bounds of a light or a group of them, a number or lanes of each.
+pub(super) struct Bounds<R> {
+    power: R,
+    center: Vec3<R>,
+    radius: R,
+    axis: Vec3<R>,
+    normals: Turn<R>,
+    cos_emission: R,
+    two_sided: R,
+}
+
+impl<R: Real> Bounds<R> {
+    /// About how much light it sends to the point `p` with normal `n`. [ContyKulla2018, eq. 3]
+    ///
     /// Zero only where no light can arrive: cosines are the largest towards any point of the ball.
     #[inline(always)]
-    fn importance<R: Real>(&self, i: usize, at: &LitPoint) -> R {
-        let load = |c: &[Column; 3]| vec3(R::load(&c[0], i), R::load(&c[1], i), R::load(&c[2], i));
-        let spread = |v: Vec3<f32>| vec3(R::of(v.x.into()), R::of(v.y.into()), R::of(v.z.into()));
-        let (power, radius) = (R::load(&self.power, i), R::load(&self.radius, i));
-        let to = load(&self.center) - spread(at.p);
+    pub(super) fn importance(&self, p: Vec3<R>, n: Vec3<R>) -> R {
+        let Bounds { power, radius, .. } = *self;
+        let to = self.center - p;
         let (d2, r2) = (to.length2(), radius * radius);
         let inv = R::ONE / d2.max(R::of(1e-30)).sqrt();
         let d = to * inv;
         let sin_ball = (radius * inv).min(R::ONE);
         let ball = ((R::ONE - sin_ball * sin_ball).safe_sqrt(), sin_ball);
 
-        let cos = -load(&self.axis).dot(d);
-        let cos = R::select(R::load(&self.two_sided, i).gt(R::ZERO), cos.abs(), cos);
-        let normals = (R::load(&self.cos_normals, i), R::load(&self.sin_normals, i));
-        let (emits, _) = less(less(turn(cos), normals), ball);
-        let (receives, _) = less(turn(spread(at.n).dot(d).abs()), ball);
+        let cos = -self.axis.dot(d);
+        let cos = R::select(self.two_sided.gt(R::ZERO), cos.abs(), cos);
+        let (emits, _) = less(less(turn(cos), self.normals), ball);
+        let (receives, _) = less(turn(n.dot(d).abs()), ball);
         let least = R::of(LEAST_COSINE);
         let far = emits.max(least) * receives.max(least) * (inv * inv);
         // Within the ball nothing is known of distance and angle.
         let within = d2.le(r2);
         let near = R::ONE / r2.max(R::of(1e-30));
 
-        let shines = power.gt(R::ZERO) & (within | emits.ge(R::load(&self.cos_emission, i)));
+        let shines = power.gt(R::ZERO) & (within | emits.ge(self.cos_emission));
         let weight = (power * R::select(within, near, far)).clamp(R::of(LEAST), R::of(MOST));
         R::select(shines, weight, R::ZERO)
     }

@@ -4,6 +4,7 @@ mod bounds;
 mod build;
 mod eight;
 mod environment;
+mod few;
 mod group;
 mod portal;
 mod selection;
@@ -12,8 +13,8 @@ mod tests;
 mod tree;
 
 use sparrow_geometry::{Geometry, SampleColumns, ShapeSample, SurfacePoint, Viewpoint};
-use sparrow_math::{Real, Transform, Vec3};
-use sparrow_spectra::{Spectrum, Wavelengths};
+use sparrow_math::{InLanes, Real, Transform, Vec3, in_lanes, vec3};
+use sparrow_spectra::{N_LAMBDA, Spectrum, Wavelengths};
 
 use crate::spectrum::SceneSpectrum;
 
@@ -21,6 +22,7 @@ use portal::Portal;
 
 pub use build::LightBuild;
 pub use environment::{Environment, EnvironmentColour};
+pub(crate) use few::LitPoints;
 pub use selection::LightSelection;
 
 /// Marks shapes that emit nothing.
@@ -179,6 +181,11 @@ impl Lights {
     pub fn choose(&self, at: &LitPoint, u: f32) -> Option<(u32, f32)> {
         self.selection.choose(at, u)
     }
+    /// [`choose`](Self::choose) for each of `points`, to the bit.
+    #[inline]
+    pub(crate) fn choose_many(&self, points: &LitPoints<'_>, put: impl FnMut(usize, Option<(u32, f32)>)) {
+        self.selection.choose_many(points, put);
+    }
     /// The probability with which [`choose`](Self::choose) picks that light.
     #[inline]
     pub fn probability(&self, at: &LitPoint, light: u32) -> f32 {
@@ -190,21 +197,27 @@ impl Lights {
         matches!(self.lights[light as usize], Light::Area { shape, prim, .. } if geometry.samples_in_lanes(shape, prim))
     }
 
-    /// [`sample`](Self::sample) from each of the first `n` points of `columns`, in lanes, to the bit; `put` is given the number of each and
-    /// what was drawn. False, and nothing done, where such lights are drawn one by one.
-    pub(crate) fn sample_many<'w>(
+    /// [`sample`](Self::sample) from each of the first `n` points of `columns`, in lanes, to the bit: the density is zero where that
+    /// gives none. Returns the bound of the rounding error of the points; `None`, and nothing done, where such lights are drawn
+    /// one by one.
+    pub(crate) fn sample_many(
         &self,
         geometry: &Geometry,
         light: u32,
         columns: &mut SampleColumns<'_>,
         n: usize,
-        lambda: impl Fn(usize) -> &'w Wavelengths,
-        mut put: impl FnMut(usize, Option<LightSample>),
-    ) -> bool {
-        let Light::Area { shape, prim, .. } = self.lights[light as usize] else { return false };
-        geometry.sample_from_many(shape, prim, columns, n, |k, s| {
-            put(k, s.and_then(|s| self.of_surface(light, s, lambda(k))));
-        })
+        nm: [&[f32]; N_LAMBDA],
+        radiance: [&mut [f32]; N_LAMBDA],
+    ) -> Option<Vec3<f32>> {
+        let Light::Area { shape, prim, emission, scale, two_sided } = self.lights[light as usize] else {
+            return None;
+        };
+        let p_error = geometry.sample_from_many(shape, prim, columns, n)?;
+        if !two_sided {
+            in_lanes(OneSided { columns, n });
+        }
+        self.emissions[emission as usize].fill(scale, nm, n, radiance);
+        Some(p_error)
     }
 
     /// What the light of a primitive sends from a point drawn on it; none to the side that does not shine.
@@ -344,6 +357,25 @@ impl Lights {
             Light::Uniform { portal, .. } => portal.as_ref().map_or(UNIFORM_SPHERE, |p| p.pdf(at.p, wi)),
             Light::Environment(e) => e.pdf(at.p, wi),
             Light::Area { .. } | Light::Point { .. } | Light::Spot { .. } | Light::Distant { .. } => 0.0,
+        }
+    }
+}
+
+/// Takes points away whose side does not shine.
+struct OneSided<'a, 'b> {
+    columns: &'a mut SampleColumns<'b>,
+    n: usize,
+}
+
+impl InLanes for OneSided<'_, '_> {
+    type Output = ();
+    #[inline(always)]
+    fn run<R: Real>(self) {
+        let SampleColumns { on, wi, pdf, .. } = self.columns;
+        for k in (0..self.n).step_by(R::WIDTH) {
+            let n = vec3(R::load(on[0], k), R::load(on[1], k), R::load(on[2], k));
+            let wi = vec3(R::load(wi[0], k), R::load(wi[1], k), R::load(wi[2], k));
+            R::load(pdf, k).only_where(n.dot(wi).lt(R::ZERO)).store(pdf, k);
         }
     }
 }

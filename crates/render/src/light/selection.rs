@@ -1,15 +1,10 @@
 //! Choosing one of many lights.
 
-use sparrow_math::{InLanes, Real, in_lanes};
-
 use super::LitPoint;
 use super::bounds::LightBounds;
-use super::eight::{EIGHT, Eight, pick};
+use super::few::{FewLights, LitPoints, WEIGH_ALL};
 use super::tree::LightTree;
 use crate::distribution::Discrete;
-
-/// Most lights for which every choice weighs each of them.
-pub(super) const WEIGH_ALL: usize = 64;
 
 /// A way to choose a light.
 #[derive(Debug)]
@@ -75,6 +70,25 @@ impl LightSelection {
         }
     }
 
+    /// [`choose`](Self::choose) for each of `points`, to the bit; in lanes, where lights are few and have places.
+    pub(crate) fn choose_many(&self, points: &LitPoints<'_>, mut put: impl FnMut(usize, Option<(u32, f32)>)) {
+        match self {
+            LightSelection::ByPlace(ByPlace { bounded: Bounded::Few(few), infinite })
+                if infinite.is_empty() =>
+            {
+                few.choose_many(points, put);
+            }
+            LightSelection::ByPlace(ByPlace { bounded: Bounded::One(light), infinite })
+                if infinite.is_empty() =>
+            {
+                (0..points.n_points).for_each(|k| put(k, Some((*light, 1.0))));
+            }
+            LightSelection::ByPlace(_) | LightSelection::Fixed(_) | LightSelection::Empty => {
+                (0..points.n_points).for_each(|k| put(k, self.choose(&points.get(k), points.u[k])));
+            }
+        }
+    }
+
     /// Probability of a light.
     #[inline]
     pub fn probability(&self, at: &LitPoint, light: u32) -> f32 {
@@ -101,12 +115,12 @@ impl ByPlace {
             return Some((self.infinite[i], share));
         }
         let rest = 1.0 - n * share;
-        let u = f64::from((u - n * share) / rest);
+        let u = (u - n * share) / rest;
         let (light, probability) = match &self.bounded {
             Bounded::None => return None,
             Bounded::One(light) => (*light, 1.0),
             Bounded::Few(few) => few.choose(at, u)?,
-            Bounded::Many(tree) => tree.choose(at, u)?,
+            Bounded::Many(tree) => tree.choose(at, u.into())?,
         };
         Some((light, rest * probability))
     }
@@ -124,61 +138,6 @@ impl ByPlace {
             Bounded::Many(tree) => tree.probability(at, light),
         };
         (1.0 - self.infinite.len() as f32 * share) * among
-    }
-}
-
-/// Few lights, each weighed for every point: exact and quick.
-#[derive(Debug)]
-struct FewLights {
-    lights: Vec<u32>,
-    bounds: Vec<Eight>,
-}
-
-/// Weights of few lights.
-type Weights = [f32; WEIGH_ALL];
-
-impl FewLights {
-    /// At most [`WEIGH_ALL`] lights.
-    fn new(lights: &[(u32, LightBounds)]) -> FewLights {
-        let mut bounds = vec![Eight::default(); lights.len().div_ceil(EIGHT)];
-        for (i, (_, b)) in lights.iter().enumerate() {
-            bounds[i / EIGHT].set(i % EIGHT, b);
-        }
-        FewLights { lights: lights.iter().map(|l| l.0).collect(), bounds }
-    }
-
-    /// Their weights, and the sum.
-    #[inline]
-    fn weigh(&self, at: &LitPoint) -> (Weights, f32) {
-        let mut weights = [0.0; WEIGH_ALL];
-        in_lanes(Weigh(&self.bounds, at, &mut weights));
-        let total = weights[..self.lights.len()].iter().sum();
-        (weights, total)
-    }
-
-    fn choose(&self, at: &LitPoint, u: f64) -> Option<(u32, f32)> {
-        let (weights, total) = self.weigh(at);
-        let (i, share, _) = pick(&weights[..self.lights.len()], total, u)?;
-        Some((self.lights[i], share))
-    }
-
-    fn probability(&self, at: &LitPoint, light: u32) -> f32 {
-        let Some(own) = self.lights.iter().position(|&l| l == light) else { return 0.0 };
-        let (weights, total) = self.weigh(at);
-        if weights[own] > 0.0 { weights[own] / total } else { 0.0 }
-    }
-}
-
-/// Writes the importances of all of them.
-struct Weigh<'a>(&'a [Eight], &'a LitPoint, &'a mut Weights);
-
-impl InLanes for Weigh<'_> {
-    type Output = ();
-    #[inline(always)]
-    fn run<R: Real>(self) {
-        for (eight, out) in self.0.iter().zip(self.2.chunks_exact_mut(EIGHT)) {
-            out.copy_from_slice(&eight.importances::<R>(self.1));
-        }
     }
 }
 
@@ -219,6 +178,28 @@ mod tests {
                 assert!((c - s.probability(&at, i as u32)).abs() < 2e-3, "{i}: {counts:?}");
             }
         }
+    }
+
+    #[test]
+    fn lanes_choose_what_is_chosen_one_by_one() {
+        let LightSelection::ByPlace(ByPlace { bounded, .. }) = lights() else { unreachable!() };
+        let s = LightSelection::ByPlace(ByPlace { bounded, infinite: Vec::new() });
+        let column = |f: &dyn Fn(f32) -> f32| -> Vec<f32> { (0..48).map(|k| f(k as f32)).collect() };
+        let p = [column(&|k| 0.3 * k - 5.0), column(&|k| 0.01 * k), column(&|k| 0.2 * k)];
+        let n = [column(&|k| (0.3 * k).sin()), column(&|_| 0.0), column(&|k| (0.3 * k).cos())];
+        let u = column(&|k| (0.618 * k).fract());
+        let points = LitPoints {
+            p: p.each_ref().map(|c| &c[..]),
+            n: n.each_ref().map(|c| &c[..]),
+            u: &u,
+            n_points: 37,
+        };
+        let mut chosen = Vec::new();
+        s.choose_many(&points, |k, one| chosen.push((k, one)));
+        let alone: Vec<_> = (0..37).map(|k| (k, s.choose(&points.get(k), u[k]))).collect();
+        assert_eq!(chosen, alone);
+        let of = |light: u32| chosen.iter().filter(|(_, c)| c.is_some_and(|c| c.0 == light)).count();
+        assert!(of(0) > 3 && of(2) > 3, "{chosen:?}");
     }
 
     #[test]

@@ -10,9 +10,12 @@ use crate::texture::{TextureContext, Textures};
 
 /// What parameters depend on, point by point.
 pub(crate) struct Points<'a> {
-    /// Wavelengths of the paths.
+    /// How many there are.
+    pub(crate) n: usize,
+    /// Wavelengths of the paths in nm, up to whole registers.
+    pub(crate) nm: &'a [Column; N_LAMBDA],
+    /// For materials with textures: wavelengths once more, and what textures need.
     pub(crate) lambda: &'a [Wavelengths],
-    /// For materials with textures.
     pub(crate) contexts: &'a [TextureContext],
 }
 
@@ -22,7 +25,7 @@ impl RealSource {
         match self {
             RealSource::Constant(v) => column[..n].fill(*v),
             RealSource::AtHero(table) => {
-                column.iter_mut().zip(&points.lambda[..n]).for_each(|(slot, w)| *slot = table.at(w)[0]);
+                column.iter_mut().zip(&points.nm[0][..n]).for_each(|(slot, nm)| *slot = table.value(*nm));
             }
             RealSource::Texture(id) => textures.float_many(*id, points.contexts, column),
             RealSource::SqrtOfTexture(id) => {
@@ -39,9 +42,8 @@ impl SpectrumSource {
         let (contexts, lambda) = (points.contexts, points.lambda);
         match self {
             SpectrumSource::Value(s) => {
-                for (k, w) in lambda[..n].iter().enumerate() {
-                    columns.iter_mut().zip(s.at(w).0).for_each(|(column, v)| column[k] = v);
-                }
+                let nm = points.nm.each_ref().map(|c| &c[..]);
+                s.fill(1.0, nm, n, columns.each_mut().map(|c| &mut c[..]));
             }
             SpectrumSource::Texture(id) => textures.value_many(*id, contexts, lambda, columns),
             SpectrumSource::KOfTexture(id) => {
@@ -68,10 +70,10 @@ pub(crate) struct MaterialColumns {
 impl MaterialColumns {
     /// Evaluates the parameters of a material at all points.
     pub(crate) fn bind(&mut self, material: &Material, textures: &Textures, points: &Points<'_>) {
-        let n = points.lambda.len();
+        let n = points.n;
         self.choices = material.choices;
-        let same = |w: &[Wavelengths]| w[0].lambda.map(f32::to_bits) == w[1].lambda.map(f32::to_bits);
-        self.n_lambda = if points.lambda.windows(2).all(same) { 1 } else { n };
+        let same = |nm: &Column| nm[..n].iter().all(|x| x.to_bits() == nm[0].to_bits());
+        self.n_lambda = if points.nm.iter().all(same) { 1 } else { n };
         self.n_reals = [0; MAX_REALS];
         self.n_spectra = [0; MAX_SPECTRA];
         for ((column, count), source) in self.reals.iter_mut().zip(&mut self.n_reals).zip(&material.reals) {

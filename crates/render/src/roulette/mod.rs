@@ -20,7 +20,7 @@ mod learned;
 mod pilot;
 mod trail;
 
-use sparrow_math::Vec3;
+use sparrow_math::{Real, Vec3};
 use sparrow_spectra::{N_LAMBDA, Spectrum};
 
 pub(crate) use learned::Learned;
@@ -46,9 +46,13 @@ impl<'a> Roulette<'a> {
     /// Probability with which a path goes on from `p` that carries `beta`; `eta_scale` undoes the squeeze of refraction.
     #[inline]
     pub(crate) fn survival(self, p: Vec3<f32>, beta: Spectrum<f32>, eta_scale: f32) -> f32 {
-        let q = by_throughput((beta * eta_scale).max_value());
+        self.at_least(by_throughput((beta * eta_scale).max_value()), p, beta)
+    }
+    /// The same, where throughput gives `q`.
+    #[inline]
+    pub(crate) fn at_least(self, q: f32, p: Vec3<f32>, beta: Spectrum<f32>) -> f32 {
         match self.learned {
-            Some((learned, pixel)) if q < 1.0 => (learned.value(pixel, p) * mean(beta)).clamp(q, 1.0),
+            Some((learned, pixel)) if q < 1.0 => Real::clamp(learned.value(pixel, p) * mean(beta), q, 1.0),
             _ => q,
         }
     }
@@ -56,8 +60,9 @@ impl<'a> Roulette<'a> {
 
 /// Paths are ended only when they have lost more than half: ending them in proportion to what they lost, as pbrt-v4
 /// does, costs a third more error on diffuse scenes for the same time (`docs/performance.md`).
-fn by_throughput(carried: f32) -> f32 {
-    if carried < 1.0 { (2.0 * carried).min(0.95) } else { 1.0 }
+#[inline(always)]
+pub(crate) fn by_throughput<R: Real>(carried: R) -> R {
+    R::select(carried.lt(R::ONE), (R::of(2.0) * carried).min(R::of(0.95)), R::ONE)
 }
 
 /// What a spectrum is to a picture, about.

@@ -1,22 +1,24 @@
 //! Vertices of one material, worked off together: [`Batch`].
 
-use sparrow_geometry::SurfacePoint;
+use sparrow_geometry::Hit;
 use sparrow_math::in_lanes;
 use sparrow_models::ModelKind;
 use sparrow_models::batch::{DirColumns, EvalColumns, SampleColumns, f_cos_pdf, sample};
-use sparrow_spectra::{N_LAMBDA, Spectrum, Wavelengths};
+use sparrow_spectra::{N_LAMBDA, Wavelengths};
 
 use super::column::{Column, pad, padded, put_spectrum, put_vector, spectrum, vector};
 use super::lanes::{ToLocal, ToWorld};
-use super::lights::{LightChoice, LightChoices};
+use super::lights::LightSamples;
+use super::onward::{Decide, Directions, Next, Onward};
 use super::paths::Paths;
+use super::shadow::Shadows;
+use super::vertices::Vertices;
 use crate::integrator::path::{light_dimension, scatter_dimension};
 use crate::integrator::{PathIntegrator, Record};
-use crate::light::{LightSample, LitPoint};
 use crate::material::{MaterialColumns, Points};
 use crate::roulette::Roulette;
 use crate::sampler::{PixelSampler, Sampler};
-use crate::scatter::{Density, Scatter, ScatterSample};
+use crate::scatter::{Density, Scatter};
 use crate::scene::{Scene, fibre_offset};
 use crate::texture::TextureContext;
 
@@ -28,57 +30,42 @@ pub(super) fn key(material: u32, regularized: bool) -> u32 {
     2 * material + u32::from(regularized)
 }
 
-/// Vertices of one material. Those that a light may reach come first.
+/// Vertices of one material.
 #[derive(Default)]
 pub(super) struct Batch<'a> {
     samplers: Vec<PixelSampler<'a>>,
-    /// The path of each vertex.
-    pub(super) path: Vec<u32>,
-    /// Light samples of the first vertices.
-    pub(super) lights: Vec<LightSample>,
-    /// Where the numbers of each vertex stand.
-    numbers_of: Vec<u32>,
-    choices: LightChoices,
-    /// Vertices without, and where their numbers stand.
-    unlit: Vec<(u32, u32)>,
+    vertices: Box<Vertices>,
+    lights: Box<LightSamples>,
+    /// Vertices of a light sample come before this one.
+    n_lit: usize,
     /// The models of vertices that are scattered one by one; empty where that is done in lanes.
     models: Vec<Scatter>,
     kind: Option<ModelKind>,
+    /// For textures.
     lambda: Vec<Wavelengths>,
     contexts: Vec<TextureContext>,
     columns: Box<Columns>,
 }
 
-/// What is known of the vertices, in columns.
+/// What is worked out at the vertices, in columns.
 #[derive(Default)]
 struct Columns {
     material: MaterialColumns,
-    /// Wavelengths in nm.
-    nm: [Column; N_LAMBDA],
     /// Offsets across fibres.
     h: Column,
-    ns: [Column; 3],
-    tangent: [Column; 3],
-    /// To the viewer and to the light.
-    wo: [Column; 3],
-    wi_light: [Column; 3],
     frame: [[Column; 3]; 3],
     wo_local: [Column; 3],
     wi_light_local: [Column; 3],
     f_cos: [Column; N_LAMBDA],
     pdf: Column,
     numbers: Numbers,
-    u: [Column; 3],
     /// Where paths go on.
     wi_local: [Column; 3],
-    wi: [Column; 3],
-    weight: [Column; N_LAMBDA],
-    density: Column,
-    eta: Column,
-    delta: Column,
+    drawn: Directions,
+    next: Next,
 }
 
-/// The uniform numbers of vertices, in the order in which they came.
+/// The uniform numbers of vertices.
 #[derive(Default)]
 struct Numbers {
     light: Column,
@@ -89,152 +76,136 @@ struct Numbers {
 }
 
 impl<'a> Batch<'a> {
-    /// Draws the uniform numbers of each vertex.
-    pub(super) fn draw<R>(
+    /// Takes the vertices of `paths` numbered `which`, all with that key, and draws their uniform numbers.
+    pub(super) fn begin<R: Record + Default>(
         &mut self,
         scene: &Scene,
         how: &PathIntegrator,
         sampler: &Sampler,
-        paths: &Paths<'a, R>,
-        vertices: &[u32],
+        (paths, hits): (&mut Paths<'a, R>, &[Option<Hit>]),
+        (key, which): (u32, &[u32]),
     ) {
         let at = |&i: &u32| paths.sampler[i as usize].at(light_dimension(paths.depth[i as usize]));
         self.samplers.clear();
-        self.samplers.extend(vertices.iter().map(at));
+        self.samplers.extend(which.iter().map(at));
         let choices = scene.lights().len() > 1 || how.mis.takes_turns();
         self.columns.numbers.fill(sampler, &self.samplers, choices);
+        self.vertices.gather(scene, how, paths, hits, (scene.material(key / 2), which));
     }
 
-    /// Draws a light for each vertex, and puts those first that got one.
-    pub(super) fn sample_lights<R>(
-        &mut self,
-        scene: &Scene,
-        how: &PathIntegrator,
-        paths: &mut Paths<'_, R>,
-        points: &[Option<SurfacePoint>],
-        vertices: &[u32],
-    ) {
-        self.path.clear();
-        self.lights.clear();
-        self.unlit.clear();
-        self.numbers_of.clear();
-        self.choices.clear(scene.lights().len());
-        let Columns { numbers, wi_light, .. } = &mut *self.columns;
-        for (j, &path) in vertices.iter().enumerate() {
+    /// Samples a light at each vertex.
+    pub(super) fn sample_lights<R>(&mut self, scene: &Scene, how: &PathIntegrator, paths: &mut Paths<'_, R>) {
+        let (vertices, numbers, n) = (&*self.vertices, &mut self.columns.numbers, self.vertices.len());
+        self.lights.clear(n);
+        let looks = how.mis.turn(0.0);
+        for (k, &path) in vertices.path.iter().enumerate() {
             let i = path as usize;
-            let Some(point) = &points[i] else { continue };
-            let turn = how.mis.turn(numbers.light[j]);
+            let mut turn = looks;
+            if how.mis.takes_turns() {
+                turn = how.mis.turn(numbers.light[k]);
+                numbers.light[k] = turn.u;
+            }
             paths.looks[i] = turn.bsdf;
-            let at = LitPoint { p: point.p, n: point.ns };
-            let choose = || scene.lights().choose(&at, turn.u);
             // The light of a first vertex belongs to the first way on.
-            let own = paths.depth[i] > 0 || paths.way[i] == 0;
-            match (own && turn.light).then(choose).flatten() {
-                Some((light, probability)) => {
-                    let u = numbers.on_light.each_ref().map(|c| c[j]);
-                    self.choices.push(light, LightChoice { vertex: j as u32, path, at, u, probability });
-                }
-                None => self.unlit.push((path, j as u32)),
-            }
+            self.lights.asked[k] = turn.light && (paths.depth[i] > 0 || paths.way[i] == 0);
         }
-        self.choices.draw(scene, &paths.lambda, |choice, light| match light {
-            Some(light) => {
-                put_vector(wi_light, self.path.len(), light.wi);
-                self.lights.push(light);
-                self.path.push(choice.path);
-                self.numbers_of.push(choice.vertex);
-            }
-            None => self.unlit.push((choice.path, choice.vertex)),
-        });
-        self.path.extend(self.unlit.iter().map(|(path, _)| path));
-        self.numbers_of.extend(self.unlit.iter().map(|(_, j)| j));
+        numbers.on_light.iter_mut().for_each(|c| pad(c, n));
+        pad(&mut numbers.light, n);
+        self.n_lit = self.lights.sample(scene, &paths.lambda, vertices, (&numbers.light, &numbers.on_light));
     }
 
     /// Evaluates the parameters of the material, and turns directions to local frames.
     pub(super) fn bind<R>(
         &mut self,
         scene: &Scene,
-        paths: &mut Paths<'_, R>,
-        points: &[Option<SurfacePoint>],
+        (paths, hits): (&mut Paths<'_, R>, &[Option<Hit>]),
         key: u32,
     ) {
         let (material, regularized) = (scene.material(key / 2), key % 2 == 1);
+        let (vertices, n) = (&*self.vertices, self.vertices.len());
         self.models.clear();
         self.lambda.clear();
         self.contexts.clear();
-        self.kind = (self.path.len() >= FEW && !regularized).then_some(material.kind);
-        for (k, &path) in self.path.iter().enumerate() {
-            let i = path as usize;
-            let Some(point) = &points[i] else { continue };
-            put_vector(&mut self.columns.wo, k, -paths.ray[i].d);
-            if self.kind.is_none() {
-                let Some(model) = scene.scatter(point, &mut paths.lambda[i]) else { continue };
-                self.models.push(if regularized { model.regularized() } else { model });
-                continue;
+        self.kind = (n >= FEW && !regularized).then_some(material.kind);
+        if self.kind.is_none() || material.textured {
+            for (k, &path) in vertices.path.iter().enumerate() {
+                let i = path as usize;
+                let Some(hit) = &hits[i] else { continue };
+                let point = vertices.point(k, hit, paths.ray[i].time);
+                if self.kind.is_some() {
+                    self.lambda.push(paths.lambda[i]);
+                    self.contexts.push(scene.texture_context_of(material, &point));
+                } else if let Some(model) = scene.scatter(&point, &mut paths.lambda[i]) {
+                    self.models.push(if regularized { model.regularized() } else { model });
+                }
             }
-            if material.dispersive {
-                paths.lambda[i].terminate_secondary();
-            }
-            self.lambda.push(paths.lambda[i]);
-            if material.textured {
-                self.contexts.push(scene.texture_context_of(material, point));
-            }
-            self.columns.place(k, point, &paths.lambda[i]);
         }
         let Some(kind) = self.kind else { return };
-        let points = Points { lambda: &self.lambda, contexts: &self.contexts };
+        let points = Points { n, nm: &vertices.nm, lambda: &self.lambda, contexts: &self.contexts };
         self.columns.material.bind(material, scene.textures(), &points);
-        self.columns.turn(self.path.len(), self.lights.len(), matches!(kind, ModelKind::Fibre(_)));
+        let fibre = matches!(kind, ModelKind::Fibre(_));
+        if fibre {
+            self.columns.h.iter_mut().zip(&vertices.v()[..n]).for_each(|(h, v)| *h = fibre_offset(*v));
+            pad(&mut self.columns.h, n);
+        }
+        let Columns { frame, wo_local, wi_light_local, .. } = &mut *self.columns;
+        self.lights.wi.iter_mut().for_each(|c| pad(c, n));
+        in_lanes(ToLocal {
+            n: padded(n),
+            fibre,
+            ns: &vertices.ns,
+            tangent: &vertices.tangent,
+            world: [&vertices.wo, &self.lights.wi],
+            frame,
+            local: [wo_local, wi_light_local],
+        });
     }
 
-    /// Value times cosine towards the light samples, and the density with which the BSDF draws them.
-    pub(super) fn f_cos_pdf(&mut self) {
-        for (k, (model, light)) in self.models.iter().zip(&self.lights).enumerate() {
-            let (f_cos, pdf) = model.f_cos_pdf(vector(&self.columns.wo, k), light.wi);
-            put_spectrum(&mut self.columns.f_cos, k, f_cos);
-            self.columns.pdf[k] = pdf;
+    /// Hands over what arrives from the light samples, by way of shadow rays.
+    pub(super) fn direct<R>(&mut self, how: &PathIntegrator, paths: &Paths<'_, R>, shadows: &mut Shadows) {
+        let (n, columns) = (self.n_lit, &mut *self.columns);
+        if n == 0 {
+            return;
+        }
+        for (k, model) in self.models.iter().take(n).enumerate() {
+            let (f_cos, pdf) = model.f_cos_pdf(vector(&self.vertices.wo, k), vector(&self.lights.wi, k));
+            put_spectrum(&mut columns.f_cos, k, f_cos);
+            columns.pdf[k] = pdf;
         }
         if let Some(kind) = self.kind {
-            self.columns.f_cos_pdf(kind, padded(self.lights.len()));
+            columns.f_cos_pdf(kind, &self.vertices.nm, padded(n));
         }
-    }
-    /// What [`f_cos_pdf`](Self::f_cos_pdf) found.
-    pub(super) fn value(&self, k: usize) -> (Spectrum<f32>, f32) {
-        (spectrum(&self.columns.f_cos, k), self.columns.pdf[k])
+        shadows.push(how, &self.vertices, &self.lights, (&columns.f_cos, &columns.pdf), (n, paths));
     }
 
     /// The next direction of each path; the path ends where there is none, or where roulette says so.
     pub(super) fn scatter<'b, R: Record + Default>(
         &mut self,
-        how: &PathIntegrator,
         paths: &mut Paths<'_, R>,
-        points: &[Option<SurfacePoint>],
-        roulette: impl Fn([u32; 2]) -> Roulette<'b>,
+        roulette: Option<impl Fn([u32; 2]) -> Roulette<'b>>,
     ) {
-        let columns = &mut self.columns;
-        let numbers = &columns.numbers;
-        for (k, &j) in self.numbers_of.iter().enumerate() {
-            let [u, v] = &numbers.direction;
-            let three = [&numbers.lobe, u, v].map(|c| c[j as usize]);
-            columns.u.iter_mut().zip(three).for_each(|(column, u)| column[k] = u);
+        let (columns, vertices, n) = (&mut *self.columns, &*self.vertices, self.vertices.len());
+        match self.kind {
+            Some(kind) => columns.sample(kind, &vertices.nm, n),
+            None => columns.sample_alone(&self.models, vertices),
         }
-        if let Some(kind) = self.kind {
-            columns.sample(kind, self.path.len());
+        let Columns { drawn, next, numbers, .. } = columns;
+        let n = padded(n);
+        in_lanes(Onward { n, vertices, drawn, next });
+        if let Some(roulette) = roulette {
+            for (k, &path) in vertices.path.iter().enumerate() {
+                let (p, beta) = (vector(&vertices.at.p, k), spectrum(&next.beta, k));
+                let here = roulette(paths.place[path as usize].pixel);
+                next.survival[k] = here.at_least(next.survival[k], p, beta);
+            }
         }
-        for (k, &path) in self.path.iter().enumerate() {
+        in_lanes(Decide { n, depth: &vertices.depth, u: &numbers.roulette, next });
+        for (k, &path) in vertices.path.iter().enumerate() {
             let i = path as usize;
-            let sample = match self.models.get(k) {
-                Some(model) => {
-                    let [lobe, u, v] = [0, 1, 2].map(|c| columns.u[c][k]);
-                    model.sample(vector(&columns.wo, k), lobe, [u, v])
-                }
-                None => columns.scattered(k),
-            };
-            paths.ended[i] = true;
-            if let (Some(s), Some(point)) = (sample, &points[i]) {
-                let u = columns.numbers.roulette[self.numbers_of[k] as usize];
-                let roulette = roulette(paths.place[i].pixel);
-                paths.ended[i] = !paths.go_on(i, how, point, &s, u, roulette);
+            if next.goes_on[k] > 0.0 {
+                paths.go_on(i, vertices, drawn, next, k);
+            } else {
+                paths.ended[i] = true;
             }
         }
     }
@@ -255,35 +226,9 @@ impl Numbers {
 }
 
 impl Columns {
-    /// Puts a vertex in its place.
-    #[inline]
-    fn place(&mut self, k: usize, point: &SurfacePoint, lambda: &Wavelengths) {
-        put_vector(&mut self.ns, k, point.ns);
-        put_vector(&mut self.tangent, k, point.tangent);
-        self.h[k] = fibre_offset(point);
-        self.nm.iter_mut().zip(lambda.lambda).for_each(|(column, nm)| column[k] = nm);
-    }
-
-    /// Makes the frames of `n` vertices and turns directions to them.
-    fn turn(&mut self, n: usize, n_lit: usize, fibre: bool) {
-        self.ns.iter_mut().chain(&mut self.tangent).chain(&mut self.wo).for_each(|c| pad(c, n));
-        self.nm.iter_mut().for_each(|c| pad(c, n));
-        pad(&mut self.h, n);
-        self.wi_light.iter_mut().for_each(|c| pad(c, n_lit));
-        in_lanes(ToLocal {
-            n: padded(n),
-            fibre,
-            ns: &self.ns,
-            tangent: &self.tangent,
-            world: [&self.wo, &self.wi_light],
-            frame: &mut self.frame,
-            local: [&mut self.wo_local, &mut self.wi_light_local],
-        });
-    }
-
     /// Evaluates the model at the first `n` vertices.
-    fn f_cos_pdf(&mut self, kind: ModelKind, n: usize) {
-        let params = self.material.params(n, &self.nm, &self.h);
+    fn f_cos_pdf(&mut self, kind: ModelKind, nm: &[Column; N_LAMBDA], n: usize) {
+        let params = self.material.params(n, nm, &self.h);
         let (wo, wi) = (directions(&self.wo_local, n), directions(&self.wi_light_local, n));
         let out =
             &mut EvalColumns { f_cos: self.f_cos.each_mut().map(|c| &mut c[..n]), pdf: &mut self.pdf[..n] };
@@ -294,40 +239,42 @@ impl Columns {
     }
 
     /// Samples the model at `n` vertices.
-    fn sample(&mut self, kind: ModelKind, n: usize) {
-        self.u.iter_mut().for_each(|c| pad(c, n));
+    fn sample(&mut self, kind: ModelKind, nm: &[Column; N_LAMBDA], n: usize) {
+        let Numbers { lobe, direction: [u, v], .. } = &mut self.numbers;
+        [&mut *lobe, &mut *u, &mut *v].into_iter().for_each(|c| pad(c, n));
         let n = padded(n);
-        let params = self.material.params(n, &self.nm, &self.h);
+        let params = self.material.params(n, nm, &self.h);
         let wo = directions(&self.wo_local, n);
-        let u = self.u.each_ref().map(|c| &c[..n]);
+        let u = [&lobe[..n], &u[..n], &v[..n]];
+        let drawn = &mut self.drawn;
         let out = &mut SampleColumns {
             wi: self.wi_local.each_mut().map(|c| &mut c[..n]),
-            weight: self.weight.each_mut().map(|c| &mut c[..n]),
-            density: &mut self.density[..n],
-            eta: &mut self.eta[..n],
-            delta: &mut self.delta[..n],
+            weight: drawn.weight.each_mut().map(|c| &mut c[..n]),
+            density: &mut drawn.density[..n],
+            eta: &mut drawn.eta[..n],
+            delta: &mut drawn.delta[..n],
         };
         match kind {
             ModelKind::Surface(kind) => sample(kind, &params, &wo, &u, out),
             ModelKind::Fibre(kind) => sample(kind, &params, &wo, &u, out),
         }
-        in_lanes(ToWorld { n, frame: &self.frame, local: &self.wi_local, world: &mut self.wi });
+        in_lanes(ToWorld { n, frame: &self.frame, local: &self.wi_local, world: &mut drawn.wi });
     }
 
-    /// The sample of a vertex; none where the path ends.
-    #[inline]
-    fn scattered(&self, k: usize) -> Option<ScatterSample> {
-        let (weight, density) = (spectrum(&self.weight, k), self.density[k]);
-        if !(density > 0.0 && density.is_finite() && weight.is_finite()) {
-            return None;
+    /// Samples models one by one.
+    fn sample_alone(&mut self, models: &[Scatter], vertices: &Vertices) {
+        let Columns { numbers: Numbers { lobe, direction: [u, v], .. }, drawn, .. } = self;
+        for (k, model) in models.iter().enumerate() {
+            drawn.density[k] = 0.0;
+            let Some(s) = model.sample(vector(&vertices.wo, k), lobe[k], [u[k], v[k]]) else { continue };
+            put_vector(&mut drawn.wi, k, s.wi);
+            put_spectrum(&mut drawn.weight, k, s.weight);
+            drawn.eta[k] = s.eta;
+            (drawn.density[k], drawn.delta[k]) = match s.density {
+                Density::SolidAngle(pdf) => (pdf, 0.0),
+                Density::Delta(probability) => (probability, 1.0),
+            };
         }
-        let delta = self.delta[k] > 0.0;
-        Some(ScatterSample {
-            wi: vector(&self.wi, k),
-            weight,
-            density: if delta { Density::Delta(density) } else { Density::SolidAngle(density) },
-            eta: self.eta[k],
-        })
     }
 }
 

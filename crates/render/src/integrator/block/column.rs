@@ -2,6 +2,7 @@
 
 use core::ops::{Deref, DerefMut};
 
+use sparrow_geometry::RoundedPoint;
 use sparrow_math::{MAX_WIDTH, Real, Vec3, vec3};
 use sparrow_spectra::{N_LAMBDA, Spectrum};
 
@@ -75,10 +76,43 @@ pub(super) fn store_vector<R: Real>(v: Vec3<R>, columns: &mut [Column; 3], k: us
     v.z.store(&mut columns[2][..], k);
 }
 
-/// Reads a spectrum from columns.
+/// Reads a spectrum from columns, for one path or for lanes of them.
 #[inline(always)]
-pub(super) fn spectrum(columns: &[Column; N_LAMBDA], k: usize) -> Spectrum<f32> {
-    Spectrum([columns[0][k], columns[1][k], columns[2][k], columns[3][k]])
+pub(super) fn spectrum<R: Real>(columns: &[Column; N_LAMBDA], k: usize) -> Spectrum<R> {
+    Spectrum([load(&columns[0], k), load(&columns[1], k), load(&columns[2], k), load(&columns[3], k)])
+}
+
+/// Writes spectra to columns, for one path or for lanes of them.
+#[inline(always)]
+pub(super) fn store_spectrum<R: Real>(s: Spectrum<R>, columns: &mut [Column; N_LAMBDA], k: usize) {
+    s.0[0].store(&mut columns[0][..], k);
+    s.0[1].store(&mut columns[1][..], k);
+    s.0[2].store(&mut columns[2][..], k);
+    s.0[3].store(&mut columns[3][..], k);
+}
+
+/// Points of surfaces with bounds of their rounding errors.
+#[derive(Default)]
+pub(super) struct Rounded {
+    pub(super) p: [Column; 3],
+    pub(super) p_error: [Column; 3],
+    /// Unit geometric normals.
+    pub(super) n: [Column; 3],
+}
+
+impl Rounded {
+    /// Reads a point, for one path or for lanes of them.
+    #[inline(always)]
+    pub(super) fn get<R: Real>(&self, k: usize) -> RoundedPoint<R> {
+        RoundedPoint { p: vector(&self.p, k), p_error: vector(&self.p_error, k), n: vector(&self.n, k) }
+    }
+    /// Writes a point.
+    #[inline(always)]
+    pub(super) fn put(&mut self, k: usize, point: &RoundedPoint<f32>) {
+        put_vector(&mut self.p, k, point.p);
+        put_vector(&mut self.p_error, k, point.p_error);
+        put_vector(&mut self.n, k, point.n);
+    }
 }
 
 /// Writes a spectrum to columns.

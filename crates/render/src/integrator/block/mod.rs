@@ -13,10 +13,12 @@ mod fresh;
 mod groups;
 mod lanes;
 mod lights;
+mod onward;
 mod paths;
 mod shadow;
+mod vertices;
 
-use sparrow_geometry::{Hit, SurfacePoint};
+use sparrow_geometry::Hit;
 
 use self::batch::Batch;
 use self::column::BATCH;
@@ -41,8 +43,9 @@ pub(crate) struct Block<'a, R> {
     fresh: Fresh<'a>,
     paths: Paths<'a, R>,
     families: Families,
+    /// Places of paths that have ended, in order.
+    ended: Vec<u32>,
     hits: Vec<Option<Hit>>,
-    points: Vec<Option<SurfacePoint>>,
     groups: Groups,
     batch: Batch<'a>,
     shadows: Shadows,
@@ -55,8 +58,8 @@ impl<R: Record + Default> Default for Block<'_, R> {
             fresh: Fresh::default(),
             paths: Paths::default(),
             families: Families::default(),
+            ended: Vec::new(),
             hits: Vec::new(),
-            points: Vec::new(),
             groups: Groups::default(),
             batch: Batch::default(),
             shadows: Shadows::default(),
@@ -82,13 +85,12 @@ impl<'a, R: Record + Default> Block<'a, R> {
             self.branch(scene, tile.plan, &how, sampler);
             self.group(scene, sampler, &how);
             for i in 0..self.groups.len() {
-                let (key, paths) = self.groups.batch(i);
-                self.batch.draw(scene, &how, sampler, &self.paths, paths);
-                self.batch.sample_lights(scene, &how, &mut self.paths, &self.points, paths);
-                self.batch.bind(scene, &mut self.paths, &self.points, key);
-                self.batch.f_cos_pdf();
-                self.shadows.push(&how, &self.batch, &self.paths, &self.points);
-                self.batch.scatter(&how, &mut self.paths, &self.points, |pixel| tile.roulette(pixel));
+                let (key, which) = self.groups.batch(i);
+                self.batch.begin(scene, &how, sampler, (&mut self.paths, &self.hits), (key, which));
+                self.batch.sample_lights(scene, &how, &mut self.paths);
+                self.batch.bind(scene, (&mut self.paths, &self.hits), key);
+                self.batch.direct(&how, &self.paths, &mut self.shadows);
+                self.batch.scatter(&mut self.paths, tile.learned.map(|_| |pixel| tile.roulette(pixel)));
             }
             self.rays.shadow += self.shadows.trace(scene, &mut self.paths);
             self.film(tile);
@@ -106,15 +108,19 @@ impl<'a, R: Record + Default> Block<'a, R> {
         sampler: &'a Sampler,
         samples: &mut impl Iterator<Item = ([u32; 2], u32)>,
     ) -> bool {
-        let mut room = N_PATHS.saturating_sub(self.paths.len()) / how.splits as usize;
+        let under_way = self.paths.len() - self.ended.len();
+        let mut room = N_PATHS.saturating_sub(under_way) / how.splits as usize;
         while room > 0 && self.fresh.draw(scene, sampler, plan, &mut samples.take(room)) {
             for (sampler, start) in self.fresh.iter(scene, plan) {
                 let family = if how.splits > 1 { self.families.push(start.place) } else { 0 };
-                self.paths.push(sampler, start, family);
+                let place = self.ended.pop().map_or(self.paths.len(), |i| i as usize);
+                self.paths.put(place, sampler, start, family);
                 self.rays.camera += 1;
                 room -= 1;
             }
         }
+        // From the end, so that what takes the place of a path is under way.
+        self.ended.drain(..).rev().for_each(|i| self.paths.remove(i as usize));
         self.paths.len() > 0
     }
 
@@ -125,13 +131,13 @@ impl<'a, R: Record + Default> Block<'a, R> {
         }
         let paths = &mut self.paths;
         for i in 0..paths.len() {
-            let there = self.points[i].filter(|point| scene.material_of(point).is_some());
-            let Some(point) = there.filter(|_| paths.depth[i] == 0) else { continue };
+            let there = self.hits[i].filter(|hit| scene.material_of(hit.shape).is_some());
+            let Some(hit) = there.filter(|_| paths.depth[i] == 0) else { continue };
             let FilmPlace { pixel, sample, .. } = paths.place[i];
             for way in 1..how.splits {
                 let sample = plan.sample_of_way(sample, way);
                 paths.branch(i, way, sampler.start(plan.in_full_picture(pixel), sample));
-                self.points.push(Some(point));
+                self.hits.push(Some(hit));
             }
             self.families.grow(paths.family[i], how.splits - 1);
         }
@@ -140,18 +146,23 @@ impl<'a, R: Record + Default> Block<'a, R> {
     /// The nearest surface of each path's ray.
     fn intersect(&mut self, scene: &Scene) {
         self.rays.scattered += self.paths.len() as u64;
-        scene.intersect_many(&self.paths.ray, &mut self.hits, &mut self.points);
+        scene.intersect_many(&self.paths.ray, &mut self.hits);
     }
 
     /// Light that the rays found.
     fn emitted(&mut self, scene: &Scene, how: &PathIntegrator) {
         let paths = &mut self.paths;
-        for (i, hit) in self.points.iter().enumerate() {
+        for (i, hit) in self.hits.iter().enumerate() {
+            let point = match hit {
+                Some(hit) if scene.lights().of_primitive(hit.shape, hit.prim).is_none() => continue,
+                Some(hit) => Some(scene.geometry().surface(&paths.ray[i], hit)),
+                None => None,
+            };
             let (beta, last, lambda) = (paths.beta[i], paths.last[i].as_ref(), &paths.lambda[i]);
             let by = paths.depth[i].checked_sub(1).map_or(Finder::Camera, Finder::Bsdf);
             let record = &mut paths.record[i];
             let found = |light, w| record.found(by, beta * light, w);
-            paths.l[i] += beta * scene.emitted(&paths.ray[i], hit.as_ref(), last, how.mis, lambda, found);
+            paths.l[i] += beta * scene.emitted(&paths.ray[i], point.as_ref(), last, how.mis, lambda, found);
         }
     }
 
@@ -159,32 +170,35 @@ impl<'a, R: Record + Default> Block<'a, R> {
     fn group(&mut self, scene: &Scene, sampler: &Sampler, how: &PathIntegrator) {
         let paths = &mut self.paths;
         self.groups.clear(2 * scene.n_materials());
-        for (i, hit) in self.points.iter().enumerate() {
+        for (i, hit) in self.hits.iter().enumerate() {
             let (depth, n_smooth) = (paths.depth[i], paths.n_smooth[i]);
             let deep = depth == how.max_depth || n_smooth == how.max_smooth;
-            let Some(point) = hit.as_ref().filter(|_| !deep) else {
+            let Some(hit) = hit.as_ref().filter(|_| !deep) else {
                 paths.ended[i] = true;
                 continue;
             };
-            match scene.material_of(point) {
+            match scene.material_of(hit.shape) {
                 Some(material) => {
                     let regularized = how.regularize && n_smooth > 0;
                     self.groups.push(batch::key(material, regularized), depth, i as u32);
                 }
-                None => paths.ray[i] = point.spawn(paths.ray[i].d),
+                None => {
+                    let ray = &mut paths.ray[i];
+                    *ray = scene.geometry().surface(ray, hit).spawn(ray.d);
+                }
             }
         }
         self.groups.sort(BATCH, sampler.has_tables());
     }
 
-    /// Hands over the light of paths that have ended, and forgets them.
+    /// Hands over the light of paths that have ended, whose places are free.
     fn film<T: TileObserver<Record = R>>(&mut self, tile: &mut Exposed<'_, T>) {
         let paths = &mut self.paths;
-        // From the end, so that what takes the place of a path has been looked at.
-        for i in (0..paths.len()).rev() {
+        for i in 0..paths.len() {
             if !paths.ended[i] {
                 continue;
             }
+            self.ended.push(i as u32);
             if tile.how.splits == 1 {
                 tile.take(paths.place[i], paths.l[i], &paths.lambda[i], &paths.record[i]);
             } else {
@@ -193,7 +207,6 @@ impl<'a, R: Record + Default> Block<'a, R> {
                     tile.take_parts(place, parts);
                 }
             }
-            paths.remove(i);
         }
     }
 }

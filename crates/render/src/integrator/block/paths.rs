@@ -1,14 +1,14 @@
 //! The paths of a block: [`Paths`].
 
-use sparrow_geometry::{Ray, SurfacePoint};
+use sparrow_geometry::Ray;
 use sparrow_spectra::{Spectrum, Wavelengths};
 
+use super::column::{spectrum, vector};
+use super::onward::{Directions, Next};
+use super::vertices::Vertices;
 use crate::integrator::start::FilmPlace;
-use crate::integrator::{CameraSample, PathIntegrator, Record};
-use crate::light::LitPoint;
-use crate::roulette::Roulette;
+use crate::integrator::{CameraSample, Record};
 use crate::sampler::PixelSampler;
-use crate::scatter::{Density, ScatterSample};
 use crate::scene::LastVertex;
 
 /// Paths under way, a column for each thing that is known of them.
@@ -31,6 +31,15 @@ pub(super) struct Paths<'a, R> {
     pub(super) looks: Vec<bool>,
     pub(super) ended: Vec<bool>,
     pub(super) record: Vec<R>,
+}
+
+/// Writes the number of a path, or of one more.
+#[inline(always)]
+fn put<T>(column: &mut Vec<T>, i: usize, value: T) {
+    match column.get_mut(i) {
+        Some(place) => *place = value,
+        None => column.push(value),
+    }
 }
 
 impl<R> Default for Paths<'_, R> {
@@ -60,30 +69,30 @@ impl<'a, R: Record + Default> Paths<'a, R> {
         self.ray.len()
     }
 
-    /// A new path.
-    pub(super) fn push(&mut self, sampler: PixelSampler<'a>, start: CameraSample, family: u32) {
-        self.place.push(start.place);
-        self.sampler.push(sampler);
-        self.lambda.push(start.lambda);
-        self.ray.push(start.ray);
-        self.l.push(Spectrum::ZERO);
-        self.beta.push(Spectrum::ONE);
-        self.eta_scale.push(1.0);
-        self.last.push(None);
-        self.depth.push(0);
-        self.way.push(0);
-        self.family.push(family);
-        self.n_smooth.push(0);
-        self.looks.push(true);
-        self.ended.push(false);
-        self.record.push(R::default());
+    /// A new path in place `i`, the first one that is empty or one whose path has ended.
+    pub(super) fn put(&mut self, i: usize, sampler: PixelSampler<'a>, start: CameraSample, family: u32) {
+        put(&mut self.place, i, start.place);
+        put(&mut self.sampler, i, sampler);
+        put(&mut self.lambda, i, start.lambda);
+        put(&mut self.ray, i, start.ray);
+        put(&mut self.l, i, Spectrum::ZERO);
+        put(&mut self.beta, i, Spectrum::ONE);
+        put(&mut self.eta_scale, i, 1.0);
+        put(&mut self.last, i, None);
+        put(&mut self.depth, i, 0);
+        put(&mut self.way, i, 0);
+        put(&mut self.family, i, family);
+        put(&mut self.n_smooth, i, 0);
+        put(&mut self.looks, i, true);
+        put(&mut self.ended, i, false);
+        put(&mut self.record, i, R::default());
     }
 
     /// Another way on from the first vertex of path `i`; what the path has found up to there stays with the first.
     pub(super) fn branch(&mut self, i: usize, way: u32, sampler: PixelSampler<'a>) {
         let lambda = self.lambda[i];
         let start = CameraSample { place: self.place[i], lambda, ray: self.ray[i] };
-        self.push(sampler, start, self.family[i]);
+        self.put(self.len(), sampler, start, self.family[i]);
         if let Some(last) = self.way.last_mut() {
             *last = way;
         }
@@ -108,39 +117,21 @@ impl<'a, R: Record + Default> Paths<'a, R> {
         self.record.swap_remove(i);
     }
 
-    /// Takes path `i` from `point` along a sampled direction; false where roulette ends it, by the uniform number `u`.
-    #[inline]
-    pub(super) fn go_on(
-        &mut self,
-        i: usize,
-        how: &PathIntegrator,
-        point: &SurfacePoint,
-        s: &ScatterSample,
-        u: f32,
-        roulette: Roulette<'_>,
-    ) -> bool {
-        let (beta, n) = (&mut self.beta[i], how.ways_on(self.depth[i]));
-        *beta *= s.weight * (1.0 / n);
-        self.eta_scale[i] *= s.eta * s.eta * n;
-        self.last[i] = match s.density {
-            Density::SolidAngle(pdf) => {
-                self.n_smooth[i] += 1;
-                let pdf = if self.looks[i] { n * pdf } else { 0.0 };
-                Some(LastVertex { at: LitPoint { p: point.p, n: point.ns }, pdf })
-            }
-            Density::Delta(_) => None,
-        };
-        self.ray[i] = point.spawn(s.wi);
-        self.depth[i] += 1;
-
-        let survival = roulette.survival(point.p, *beta, self.eta_scale[i]);
-        if survival < 1.0 && self.depth[i] > 1 {
-            if u >= survival {
-                return false;
-            }
-            *beta *= 1.0 / survival;
+    /// Takes path `i` from vertex `k` of a batch along the direction that was drawn.
+    #[inline(always)]
+    pub(super) fn go_on(&mut self, i: usize, vertices: &Vertices, drawn: &Directions, next: &Next, k: usize) {
+        self.last[i] = None;
+        if drawn.delta[k] <= 0.0 {
+            self.n_smooth[i] += 1;
+            let pdf = if self.looks[i] { vertices.ways[k] * drawn.density[k] } else { 0.0 };
+            self.last[i] = Some(LastVertex { at: vertices.lit_point(k), pdf });
         }
-        self.record[i].goes_on(point.p, *beta);
-        true
+        let beta = spectrum(&next.beta, k);
+        self.record[i].goes_on(vector(&vertices.at.p, k), beta);
+        self.beta[i] = beta;
+        self.eta_scale[i] = next.eta_scale[k];
+        self.depth[i] += 1;
+        let ray = &mut self.ray[i];
+        *ray = Ray { time: ray.time, ..Ray::new(vector(&next.o, k), vector(&drawn.wi, k)) };
     }
 }

@@ -1,0 +1,90 @@
+//! The way on from the vertices of a batch: [`Onward`].
+
+use sparrow_math::{InLanes, Real};
+use sparrow_spectra::{N_LAMBDA, Spectrum};
+
+use super::column::{Column, load, spectrum, store_spectrum, store_vector, vector};
+use super::vertices::Vertices;
+use crate::integrator::path::carried;
+use crate::roulette::by_throughput;
+
+/// Directions that were drawn, and what they say of them.
+#[derive(Default)]
+pub(super) struct Directions {
+    /// In the world.
+    pub(super) wi: [Column; 3],
+    /// Value times cosine over density.
+    pub(super) weight: [Column; N_LAMBDA],
+    /// Per steradian, or the probability of a delta lobe; zero where the path ends.
+    pub(super) density: Column,
+    /// Relative index that was crossed.
+    pub(super) eta: Column,
+    /// 1 for delta lobes, else 0.
+    pub(super) delta: Column,
+}
+
+/// Where paths go on, and what they carry.
+#[derive(Default)]
+pub(super) struct Next {
+    /// Origins of the rays.
+    pub(super) o: [Column; 3],
+    pub(super) beta: [Column; N_LAMBDA],
+    pub(super) eta_scale: Column,
+    /// Probability to go on.
+    pub(super) survival: Column,
+    /// 1 where a path goes on, else 0.
+    pub(super) goes_on: Column,
+}
+
+/// Takes `n` paths from their vertices along the directions that were drawn.
+pub(super) struct Onward<'a> {
+    pub(super) n: usize,
+    pub(super) vertices: &'a Vertices,
+    pub(super) drawn: &'a Directions,
+    pub(super) next: &'a mut Next,
+}
+
+impl InLanes for Onward<'_> {
+    type Output = ();
+    #[inline(always)]
+    fn run<R: Real>(self) {
+        let Onward { n, vertices, drawn, next } = self;
+        for k in (0..n).step_by(R::WIDTH) {
+            let (weight, density) = (spectrum::<R>(&drawn.weight, k), load::<R>(&drawn.density, k));
+            let finite = density.lt(R::of(f64::INFINITY)) & weight.is_finite();
+            let (ways, eta) = (load::<R>(&vertices.ways, k), load::<R>(&drawn.eta, k));
+            let before: (Spectrum<R>, R) = (spectrum(&vertices.beta, k), load(&vertices.eta_scale, k));
+            let (beta, eta_scale) = carried(before, weight, eta, ways);
+            let origin = vertices.at.get::<R>(k).towards(vector(&drawn.wi, k));
+            store_vector(origin, &mut next.o, k);
+            store_spectrum(beta, &mut next.beta, k);
+            eta_scale.store(&mut next.eta_scale[..], k);
+            by_throughput((beta * eta_scale).max_value()).store(&mut next.survival[..], k);
+            R::ONE.only_where(density.gt(R::ZERO) & finite).store(&mut next.goes_on[..], k);
+        }
+    }
+}
+
+/// Ends paths behind their first vertex by roulette, and lets the others carry more.
+pub(super) struct Decide<'a> {
+    pub(super) n: usize,
+    pub(super) depth: &'a Column,
+    /// Uniform numbers.
+    pub(super) u: &'a Column,
+    pub(super) next: &'a mut Next,
+}
+
+impl InLanes for Decide<'_> {
+    type Output = ();
+    #[inline(always)]
+    fn run<R: Real>(self) {
+        let Decide { n, depth, u, next } = self;
+        for k in (0..n).step_by(R::WIDTH) {
+            let (survival, beta) = (load::<R>(&next.survival, k), spectrum::<R>(&next.beta, k));
+            let asked = survival.lt(R::ONE) & load::<R>(depth, k).gt(R::ZERO);
+            let ends = asked & load::<R>(u, k).ge(survival);
+            store_spectrum(Spectrum::select(asked, beta * (R::ONE / survival), beta), &mut next.beta, k);
+            load::<R>(&next.goes_on, k).only_where(!ends).store(&mut next.goes_on[..], k);
+        }
+    }
+}
