@@ -50,7 +50,7 @@ pub(crate) struct Block<'a, R> {
     ended: Vec<u32>,
     hits: Vec<Option<Hit>>,
     groups: Groups,
-    batch: Batch<'a>,
+    batch: Batch,
     shadows: Shadows,
     rays: RayCounts,
 }
