@@ -112,20 +112,20 @@ impl<'a, R: Record + Default> Block<'a, R> {
         sampler: &'a Sampler,
         samples: &mut impl Iterator<Item = ([u32; 2], u32)>,
     ) -> bool {
-        let under_way = self.paths.len() - self.ended.len();
-        let mut room = N_PATHS.saturating_sub(under_way) / how.splits as usize;
-        while room > 0 && self.fresh.draw(scene, sampler, plan, &mut samples.take(room)) {
-            for (sampler, start) in self.fresh.iter(scene, plan) {
-                let family = if how.splits > 1 { self.families.push(start.place) } else { 0 };
-                let place = self.ended.pop().map_or(self.paths.len(), |i| i as usize);
-                self.paths.put(place, sampler, start, family);
-                self.rays.camera += 1;
+        let Block { fresh, paths, families, ended, rays, .. } = self;
+        let mut room = N_PATHS.saturating_sub(paths.len() - ended.len()) / how.splits as usize;
+        while room > 0 && fresh.draw(scene, sampler, plan, &mut samples.take(room)) {
+            fresh.iter(scene, plan).for_each(|(sampler, start)| {
+                let family = if how.splits > 1 { families.push(start.place) } else { 0 };
+                let place = ended.pop().map_or(paths.len(), |i| i as usize);
+                paths.put(place, sampler, start, family);
+                rays.camera += 1;
                 room -= 1;
-            }
+            });
         }
         // From the end, so that what takes the place of a path is under way.
-        self.ended.drain(..).rev().for_each(|i| self.paths.remove(i as usize));
-        self.paths.len() > 0
+        ended.drain(..).rev().for_each(|i| paths.remove(i as usize));
+        paths.len() > 0
     }
 
     /// Paths at their first vertex go on in several ways.
