@@ -2,7 +2,7 @@
 
 use core::ops::Range;
 
-use sparrow_math::Aabb;
+use sparrow_math::{Aabb, vec3};
 
 use super::Bvh;
 use super::block::TriBlock;
@@ -12,20 +12,38 @@ pub(crate) const MAX_VERTICES: usize = 64;
 /// Most triangles.
 const MAX_TRIANGLES: usize = 40;
 
-/// Two triangles that share a side, (a, b, c) and (a, c, d), by the numbers of their corners. For a triangle alone, d is a: the second
-/// then has no area.
+/// Numbers of a triangle's corners.
+pub(crate) type Corners = [u8; 3];
+
+/// A triangle, or two that share a side and lie in a plane: rays of both go through that side.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pair {
-    pub(crate) corners: [u8; 4],
+    pub(crate) first: Corners,
+    pub(crate) second: Option<Corners>,
     ids: [u32; 2],
 }
 
 impl Pair {
-    /// With another triangle, which must not be part of a pair.
-    fn with(&self, other: &Pair) -> Option<Pair> {
-        let ([a, b, c, none], [a2, c2, d, none2]) = (self.corners, other.corners);
-        let share = a == a2 && c == c2 && none == a && none2 == a2;
-        share.then_some(Pair { corners: [a, b, c, d], ids: [self.ids[0], other.ids[0]] })
+    fn alone(corners: Corners, id: u32) -> Pair {
+        Pair { first: corners, second: None, ids: [id; 2] }
+    }
+    /// A triangle alone with another one.
+    fn with(&self, other: &Pair, vertices: &[[f32; 4]]) -> Option<Pair> {
+        let (p, q) = (self.first, other.first);
+        // Seen from the same side, triangles go opposite ways along the side that they share.
+        let sides = |[a, b, c]: Corners| [[a, b], [b, c], [c, a]];
+        let share = sides(p).iter().any(|&[a, b]| sides(q).contains(&[b, a]));
+        let normal = |corners: Corners| {
+            let [a, b, c] = corners.map(|i| {
+                let [x, y, z, _] = vertices[usize::from(i)];
+                vec3(x, y, z).to_f64()
+            });
+            (b - a).cross(c - a)
+        };
+        // Less than three degrees apart. Of planes that are not the same some rays are asked anew, no more.
+        let (n, m) = (normal(p), normal(q));
+        let flat = n.dot(m) > 0.999 * n.length() * m.length();
+        (share && flat).then_some(Pair { second: Some(q), ids: [self.ids[0], other.ids[0]], ..*self })
     }
 }
 
@@ -90,12 +108,11 @@ impl Few {
                 }
                 *to = u8::try_from(at).ok().filter(|&at| usize::from(at) < MAX_VERTICES)?;
             }
-            let [a, b, c] = numbers;
-            alone.push(Pair { corners: [a, b, c, a], ids: [id; 2] });
+            alone.push(Pair::alone(numbers, id));
         }
         while let Some(one) = alone.pop() {
-            let two = |other: &Pair| one.with(other).or_else(|| other.with(&one));
-            let found = alone.iter().enumerate().find_map(|(i, other)| Some((i, two(other)?)));
+            let with = |(i, other)| Some((i, one.with(other, &self.vertices)?));
+            let found = alone.iter().enumerate().find_map(with);
             if let Some((i, _)) = found {
                 alone.remove(i);
             }

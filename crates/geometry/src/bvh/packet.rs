@@ -5,7 +5,7 @@
 //! before its leaf's box, or where a triangle has to be settled in double precision: such rays are asked anew one by one.
 
 use super::block::{RawHit, gamma};
-use super::few::{Few, MAX_VERTICES, Other, Pair};
+use super::few::{Corners, Few, MAX_VERTICES, Other, Pair};
 use super::ray_data::{PAD, TINY_INV};
 use super::traverse::Others;
 use crate::ray::Ray;
@@ -209,32 +209,49 @@ impl<S: Simd> Nearest<S> {
         (met, t0): (Which<S>, S::F8),
         (corners, error, sz): (&[Sheared<S>; MAX_VERTICES], &[S::F8; 2], S::F8),
     ) {
-        let corner = |i: u8| &corners[usize::from(i) % MAX_VERTICES];
-        let [a, b, c, d] = pair.corners;
-        let [a, b, c, d] = [corner(a), corner(b), corner(c), corner(d)];
-        let zero = S::F8::splat(0.0);
-        let (u, v, w) = (edge::<S>(c, b), edge::<S>(a, c), edge::<S>(b, a));
-        // That of the side they share differs in its sign alone.
-        let (u2, v2, w2) = (edge::<S>(d, c), edge::<S>(a, d), zero - v);
-        let (first, second) = (inside::<S>(u, v, w), inside::<S>(u2, v2, w2));
-        let met = met & self.open;
-        if !((first | second) & met).any() {
+        let of = |[a, b, c]: Corners| [a, b, c].map(|i| &corners[usize::from(i) % MAX_VERTICES]);
+        let (first, met) = (Edges::<S>::new(of(pair.first)), met & self.open);
+        let inside = first.inside();
+        let Some(second) = pair.second.map(of).map(Edges::<S>::new) else {
+            if (inside & met).any() {
+                self.triangle::<ANY>(&first, inside & met, (number::<S>(2 * i), t0), (error, sz));
+            }
+            return;
+        };
+        let inside2 = second.inside();
+        let met = (inside | inside2) & met;
+        if !met.any() {
             return;
         }
+        let second_alone = inside2 & !inside;
+        let place = number::<S>(2 * i + 1).only_where(second_alone, number::<S>(2 * i));
         // Rays of both go through the side they share.
-        let (both, second) = (first & second, second & !first);
-        let (u, v, w) = (u2.only_where(second, u), v2.only_where(second, v), w2.only_where(second, w));
-        let (bz, cz) = (c[2].only_where(second, b[2]), d[2].only_where(second, c[2]));
+        let both = inside & inside2 & met;
+        self.anew = self.anew | both;
+        self.open = self.open & !both;
+        let edges = second.only_where(second_alone, &first);
+        self.triangle::<ANY>(&edges, met & !both, (place, t0), (error, sz));
+    }
+
+    /// Offers the points of the rays `met` on triangles, which have a place each.
+    #[inline(always)]
+    fn triangle<const ANY: bool>(
+        &mut self,
+        &Edges { e: [u, v, w], z }: &Edges<S>,
+        met: Which<S>,
+        (place, t0): (S::F8, S::F8),
+        (error, sz): (&[S::F8; 2], S::F8),
+    ) {
+        let zero = S::F8::splat(0.0);
         let inv = S::F8::splat(1.0) / (u + v + w);
-        let t = (u * a[2] + v * bz + w * cz) * sz * inv;
-        let near = (first | second) & met & (both | zero.lt(t) & t.le(self.t));
+        let t = (u * z[0] + v * z[1] + w * z[2]) * sz * inv;
+        let near = met & zero.lt(t) & t.le(self.t);
         if !near.any() {
             return;
         }
         let (least, greatest) = (u.min(v).min(w), u.max(v).max(w));
         let exact = (zero.lt(least) | greatest.lt(zero)) & (error[0] + error[1] * inv.abs()).lt(t);
-        let place = number::<S>(2 * i + 1).only_where(second, number::<S>(2 * i));
-        self.offer::<ANY>(near, near & exact & !both & t0.le(t) & t.lt(self.t), [t, place, v * inv, w * inv]);
+        self.offer::<ANY>(near, near & exact & t0.le(t) & t.lt(self.t), [t, place, v * inv, w * inv]);
     }
 
     /// Takes points, at `t` and in `place`, where `taken` says so; asks anew where they are only `near`.
@@ -305,17 +322,33 @@ fn number<S: Simd>(i: u32) -> S::F8 {
     S::F8::splat(f32::from_bits(i))
 }
 
-/// The edge function of two corners.
-#[inline(always)]
-fn edge<S: Simd>(p: &Sheared<S>, q: &Sheared<S>) -> S::F8 {
-    p[0] * q[1] - p[1] * q[0]
+/// The edge functions of a triangle, and how far its corners are.
+struct Edges<S: Simd> {
+    e: [S::F8; 3],
+    z: [S::F8; 3],
 }
 
-/// Rays with no edge functions of different signs.
-#[inline(always)]
-fn inside<S: Simd>(u: S::F8, v: S::F8, w: S::F8) -> Which<S> {
-    let zero = S::F8::splat(0.0);
-    zero.le(u.min(v).min(w)) | u.max(v).max(w).le(zero)
+impl<S: Simd> Edges<S> {
+    #[inline(always)]
+    fn new([a, b, c]: [&Sheared<S>; 3]) -> Edges<S> {
+        let u = c[0] * b[1] - c[1] * b[0];
+        let v = a[0] * c[1] - a[1] * c[0];
+        let w = b[0] * a[1] - b[1] * a[0];
+        Edges { e: [u, v, w], z: [a[2], b[2], c[2]] }
+    }
+    /// Rays with no edge functions of different signs.
+    #[inline(always)]
+    fn inside(&self) -> Which<S> {
+        let ([u, v, w], zero) = (self.e, S::F8::splat(0.0));
+        zero.le(u.min(v).min(w)) | u.max(v).max(w).le(zero)
+    }
+    #[inline(always)]
+    fn only_where(&self, mask: Which<S>, o: &Edges<S>) -> Edges<S> {
+        let choose = |a: &[S::F8; 3], b: &[S::F8; 3]| {
+            [a[0].only_where(mask, b[0]), a[1].only_where(mask, b[1]), a[2].only_where(mask, b[2])]
+        };
+        Edges { e: choose(&self.e, &o.e), z: choose(&self.z, &o.z) }
+    }
 }
 
 /// What eight rays meet.

@@ -115,8 +115,8 @@ fn one_by_one(a: [f32; 8], b: [f32; 8]) -> Vec<u32> {
     out.extend(b.map(|b| ((b.to_bits() % 4 + 1) as f32).to_bits()));
     out.extend([0, 1, 2, 3, 4, 5, 6, 7].map(|i| u32::from(min(a[i], b[i]) > 0.0)));
     out.extend([0, 1, 2, 3, 4, 5, 6, 7].map(|i| u32::from(max(a[i], b[i]) > 0.0)));
-    out.extend([bits(&|a, b| a <= b), bits(&|a, b| a < b), bits(&|a, b| b <= a), 0xff, 0]);
-    out.extend([bits(&|a, b| a == b), bits(&|a, b| a < b || a > b), bits(&|a, b| a >= b)]);
+    let (le, lt) = (bits(&|a, b| a <= b), bits(&|a, b| a < b));
+    out.extend([le, lt, bits(&|a, b| b <= a), 0xff, 0, le & !lt, lt | !le & 0xff, !lt & 0xff]);
     out
 }
 

@@ -2,6 +2,7 @@
 
 use sparrow_geometry::{
     BilinearMesh, CurveBasis, CurveKind, CurveSet, Geometry, Hit, Instance, Ray, Shape, ShapeInstance,
+    TriangleMesh,
 };
 use sparrow_math::{Transform, Vec3, vec3};
 
@@ -114,6 +115,43 @@ fn of_few_shapes() {
         shapes.extend(quadrics(&mut rng, 1.0).into_iter().take(n as usize % 5));
         let rays = rays(&mut rng, 5_000);
         compare("few", &Geometry::build(shapes), &rays);
+    }
+}
+
+/// Squares of two triangles each, cut either way, their corners in any turn; every third is folded, so that rays meet both.
+fn squares(rng: &mut Rng, n: u32) -> ShapeInstance {
+    let mut mesh = TriangleMesh::default();
+    for i in 0..n {
+        let (p, e) = (Vec3::from(rng.point()), rng.direction() * 0.7);
+        let f = e.cross(rng.direction());
+        let mut corners = [p, p + e, p + e + f, p + f];
+        if i.is_multiple_of(3) {
+            corners[2] += e.cross(f) * 0.9 - (e + f) * 0.8;
+        }
+        mesh.p.extend(corners.map(Vec3::to_array));
+        for mut corners in [[0, 1, 2], [0, 2, 3]] {
+            corners.rotate_left((rng.next() * 3.0) as usize);
+            mesh.indices.push(corners.map(|c| 4 * i + c));
+        }
+    }
+    placed(Shape::Triangles(mesh))
+}
+
+/// Few enough for a tree of one node; some rays go through the sides that triangles share.
+#[test]
+fn of_squares_of_triangles() {
+    let mut rng = Rng(35);
+    for n in [1, 4, 12] {
+        let shape = squares(&mut rng, n);
+        let Shape::Triangles(mesh) = &shape.shape else { unreachable!() };
+        let (ends, mut rays) = (mesh.p.clone(), rays(&mut rng, 10_000));
+        for (i, ray) in rays.iter_mut().enumerate().filter(|(i, _)| i % 5 < 2) {
+            let square = 4 * (i % n as usize);
+            let [a, c] = [ends[square], ends[square + 2]].map(Vec3::from);
+            let s = rng.next();
+            *ray = Ray::new(ray.o, a * s + c * (1.0 - s) - ray.o);
+        }
+        compare("squares", &Geometry::build(vec![shape]), &rays);
     }
 }
 
