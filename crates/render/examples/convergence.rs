@@ -8,22 +8,47 @@
 use std::f64::consts::{E, FRAC_PI_4};
 
 use sparrow_math::Real;
-use sparrow_render::sampler::{Sampler, SamplerConfig, SamplerKind};
+use sparrow_render::sampler::{PixelSampler, Sampler, SamplerConfig, SamplerKind};
 
-/// A function of the unit cube of four dimensions, its integral, and what it is.
-type Integrand = (&'static str, f64, fn([f64; 4]) -> f64);
+/// What it is, how its numbers are drawn, its integral over the unit cube, and a function.
+type Integrand = (&'static str, fn(&mut PixelSampler<'_>) -> [f32; 4], f64, fn([f64; 4]) -> f64);
 
-const INTEGRANDS: [Integrand; 4] = [
-    ("smooth, 2 D", E - 0.5, |[x, y, ..]| Real::exp(x) * (1.0 + x * y)),
-    ("disk, 2 D", FRAC_PI_4, |[x, y, ..]| f64::from(u8::from(x * x + y * y < 1.0))),
-    ("smooth, 4 D", (E - 1.0) * (E - 1.0), |[x, y, z, w]| 4.0 * x * w * Real::exp(y + z)),
-    ("ball, 4 D", FRAC_PI_4 * FRAC_PI_4 / 2.0, |u| {
+const INTEGRANDS: [Integrand; 6] = [
+    ("smooth, 2 D", two_pairs, E - 0.5, |[x, y, ..]| Real::exp(x) * (1.0 + x * y)),
+    ("disk, 2 D", two_pairs, FRAC_PI_4, |[x, y, ..]| f64::from(u8::from(x * x + y * y < 1.0))),
+    ("smooth, 4 D", two_pairs, (E - 1.0) * (E - 1.0), |[x, y, z, w]| 4.0 * x * w * Real::exp(y + z)),
+    ("ball, 4 D", two_pairs, FRAC_PI_4 * FRAC_PI_4 / 2.0, |u| {
         f64::from(u8::from(u.iter().map(|x| x * x).sum::<f64>() < 1.0))
     }),
+    ("lamps, apart", |p| choice_and_point(p.get_1d(), p.get_2d()), 1.0, lamps),
+    (
+        "lamps, a triple",
+        |p| {
+            let [choice, u, v] = p.get_3d();
+            choice_and_point(choice, [u, v])
+        },
+        1.0,
+        lamps,
+    ),
 ];
 
+fn two_pairs(p: &mut PixelSampler<'_>) -> [f32; 4] {
+    let ([x, y], [z, w]) = (p.get_2d(), p.get_2d());
+    [x, y, z, w]
+}
+
+fn choice_and_point(choice: f32, [u, v]: [f32; 2]) -> [f32; 4] {
+    [choice, u, v, 0.0]
+}
+
+/// One of five lamps and a point of it; all five send as much, the later from an ever smaller part.
+fn lamps([choice, u, v, _]: [f64; 4]) -> f64 {
+    let lamp = (5.0 * choice) as i32;
+    2.0 * v * f64::from(lamp + 1) * (0..lamp).map(|_| u).product::<f64>()
+}
+
 /// Root mean square error of the means of `spp` samples over many pixels.
-fn error(kind: SamplerKind, spp: u32, (_, truth, f): Integrand) -> f64 {
+fn error(kind: SamplerKind, spp: u32, (_, draw, truth, f): Integrand) -> f64 {
     let kind = match kind {
         SamplerKind::Stratified { jitter, .. } => {
             let x = 1 << (spp.trailing_zeros() / 2);
@@ -48,8 +73,7 @@ fn error(kind: SamplerKind, spp: u32, (_, truth, f): Integrand) -> f64 {
     for pixel in 0..400 {
         let value = |i| {
             let mut p = s.start([pixel % 20 * 3, pixel / 20 * 3], i).at(4);
-            let ([x, y], [z, w]) = (p.get_2d(), p.get_2d());
-            f([x, y, z, w].map(f64::from))
+            f(draw(&mut p).map(f64::from))
         };
         sum += ((0..spp).map(value).sum::<f64>() / f64::from(spp) - truth).sqr();
     }
@@ -66,7 +90,7 @@ fn main() {
         ("zsobol, pmj02bn", SamplerKind::ZSobol),
     ];
     println!("| sampler | {} |", INTEGRANDS.map(|i| i.0).join(" | "));
-    println!("| --- | --- | --- | --- | --- |");
+    println!("|{}", " --- |".repeat(1 + INTEGRANDS.len()));
     for (name, kind) in kinds {
         let cells = INTEGRANDS.map(|integrand| {
             let logs: Vec<[f64; 2]> = (4..=12)

@@ -237,7 +237,11 @@ impl Lights {
                 e.sample_many(n, columns.u, (&mut columns.wi, columns.pdf), nm, radiance);
                 Some(Ends::Nowhere)
             }
-            _ => None,
+            Light::Point { .. }
+            | Light::Spot { .. }
+            | Light::Distant { .. }
+            | Light::Uniform { .. }
+            | Light::Environment(_) => None,
         }
     }
 
@@ -363,7 +367,11 @@ impl Lights {
     pub fn place_of(&self, light: u32, wi: Vec3<f32>) -> [f32; 2] {
         match &self.lights[light as usize] {
             Light::Environment(e) => e.place(wi),
-            _ => [0.0; 2],
+            Light::Area { .. }
+            | Light::Point { .. }
+            | Light::Spot { .. }
+            | Light::Distant { .. }
+            | Light::Uniform { .. } => [0.0; 2],
         }
     }
     /// Radiance of an infinite light from the direction at that [place](Self::place_of).

@@ -145,7 +145,7 @@ impl ByPlace {
 mod tests {
     use super::*;
     use crate::light::bounds::Cone;
-    use sparrow_math::{Aabb, vec3};
+    use sparrow_math::{Aabb, Real, vec3};
 
     fn lights() -> LightSelection {
         let at = |x: f32, power: f32, r: f32| LightBounds {
@@ -186,7 +186,7 @@ mod tests {
         let s = LightSelection::ByPlace(ByPlace { bounded, infinite: Vec::new() });
         let column = |f: &dyn Fn(f32) -> f32| -> Vec<f32> { (0..48).map(|k| f(k as f32)).collect() };
         let p = [column(&|k| 0.3 * k - 5.0), column(&|k| 0.01 * k), column(&|k| 0.2 * k)];
-        let n = [column(&|k| (0.3 * k).sin()), column(&|_| 0.0), column(&|k| (0.3 * k).cos())];
+        let n = [column(&|k| Real::sin(0.3 * k)), column(&|_| 0.0), column(&|k| Real::cos(0.3 * k))];
         let u = column(&|k| (0.618 * k).fract());
         let points = LitPoints {
             p: p.each_ref().map(|c| &c[..]),

@@ -102,18 +102,17 @@ impl<'a> Chunk<'a> {
         Chunk { sampler, n: 0, dimension: 0, keys: [0; CHUNK], index: [0; CHUNK] }
     }
 
-    /// Takes the first of `paths`, as many as fit.
-    fn gather<'p>(&mut self, paths: impl Iterator<Item = PixelSampler<'p>>) {
-        let alike = self.sampler.has_tables();
-        self.n = 0;
-        for path in paths.take(CHUNK) {
-            if self.n == 0 {
-                self.dimension = path.dimension();
-            } else if alike && path.dimension() != self.dimension {
-                break;
-            }
-            (self.keys[self.n], self.index[self.n]) = (path.key_here(), path.index);
-            self.n += 1;
+    /// Takes the first of `paths`, as many as fit and belong together.
+    fn gather<'p>(&mut self, paths: impl ExactSizeIterator<Item = PixelSampler<'p>> + Clone) {
+        self.dimension = paths.clone().next().map_or(0, |path| path.dimension());
+        self.n = paths.len().min(CHUNK);
+        if self.sampler.has_tables() {
+            let alike = paths.clone().take(CHUNK).take_while(|path| path.dimension() == self.dimension);
+            self.n = alike.count();
+        }
+        let places = self.keys[..self.n].iter_mut().zip(&mut self.index[..self.n]);
+        for ((key, index), path) in places.zip(paths) {
+            (*key, *index) = (path.key_here(), path.index);
         }
     }
 

@@ -16,7 +16,7 @@
 //! | `pmj02bn` | runs as `zsobol` and says so | padded | blue noise |
 //!
 //! *Padded* means that every request takes a fresh (0, 2)-sequence, shuffled against the others
-//! [Burley2020]; what lies beyond the table of a global sequence is padded too.
+//! [Burley2020]; a triple is such a pair with a third coordinate of the same index. What lies beyond the table of a global sequence is padded too.
 //!
 //! A pixel takes up to 2^32 samples, and each of them 2^32 dimensions, none of which repeats another. A padded kind asked for more samples
 //! than it was built for scrambles them anew, and so does the global Sobol sequence beyond its 2^52 points, which an image of side 2^m spends
