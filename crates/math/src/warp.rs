@@ -65,27 +65,29 @@ pub fn uniform_triangle<R: Real>(u: [R; 2]) -> [R; 2] {
 /// Unit square to unit sphere, area-preserving, by a folded octahedron. [Clarberg2008]
 ///
 /// pbrt-v4's layout of environment maps: the centre of the square is +z, its corners are -z.
-pub fn equal_area_square_to_sphere(p: [f32; 2]) -> Vec3<f32> {
-    let (u, v) = (2.0 * p[0] - 1.0, 2.0 * p[1] - 1.0);
+#[inline(always)]
+pub fn equal_area_square_to_sphere<R: Real>(p: [R; 2]) -> Vec3<R> {
+    let (one, two) = (R::ONE, R::of(2.0));
+    let (u, v) = (two * p[0] - one, two * p[1] - one);
     let (up, vp) = (u.abs(), v.abs());
-    let signed = 1.0 - (up + vp);
-    let r = 1.0 - signed.abs();
-    let phi = (if r > 0.0 { (vp - up) / r + 1.0 } else { 1.0 }) * core::f32::consts::FRAC_PI_4;
-    let (s, c) = Real::sin_cos(phi);
-    let h = r * Real::safe_sqrt(2.0 - r * r);
-    vec3((c * h).copysign(u), (s * h).copysign(v), (1.0 - r * r).copysign(signed))
+    let signed = one - (up + vp);
+    let r = one - signed.abs();
+    let turn = R::select(r.gt(R::ZERO), (vp - up) / r + one, one);
+    let (s, c) = (turn * R::of(core::f64::consts::FRAC_PI_4)).sin_cos();
+    let h = r * (two - r * r).safe_sqrt();
+    vec3((c * h).copysign(u), (s * h).copysign(v), (one - r * r).copysign(signed))
 }
 
 /// The way back from [`equal_area_square_to_sphere`].
-pub fn equal_area_sphere_to_square(d: Vec3<f32>) -> [f32; 2] {
-    let (x, y) = (d.x.abs(), d.y.abs());
-    let r = Real::safe_sqrt(1.0 - d.z.abs());
-    let phi = Real::atan2(y, x) * core::f32::consts::FRAC_2_PI;
-    let (mut v, mut u) = (phi * r, r - phi * r);
-    if d.z < 0.0 {
-        (u, v) = (1.0 - v, 1.0 - u);
-    }
-    [(u.copysign(d.x) + 1.0) * 0.5, (v.copysign(d.y) + 1.0) * 0.5]
+#[inline(always)]
+pub fn equal_area_sphere_to_square<R: Real>(d: Vec3<R>) -> [R; 2] {
+    let (one, half) = (R::ONE, R::of(0.5));
+    let r = (one - d.z.abs()).safe_sqrt();
+    let phi = d.y.abs().atan2(d.x.abs()) * R::of(core::f64::consts::FRAC_2_PI);
+    let (v, u) = (phi * r, r - phi * r);
+    let below = d.z.lt(R::ZERO);
+    let (u, v) = (R::select(below, one - v, u), R::select(below, one - u, v));
+    [(u.copysign(d.x) + one) * half, (v.copysign(d.y) + one) * half]
 }
 
 #[cfg(test)]

@@ -131,6 +131,11 @@ impl Camera {
         self.through(&self.frame, film, lens)
     }
 
+    /// Rays depend on where they pass the lens.
+    pub(crate) fn has_lens(&self) -> bool {
+        self.lens_radius > 0.0
+    }
+
     /// The camera moves.
     pub(crate) fn moves(&self) -> bool {
         self.motion.is_some()

@@ -125,9 +125,11 @@ impl Carrier {
 
 /// Red, green, blue, and green again.
 #[inline]
-pub(crate) fn four([r, g, b]: [f32; 3]) -> [f32; N_LAMBDA] {
-    [r, g, b, g]
+pub(crate) fn four(rgb: [f32; 3]) -> [f32; N_LAMBDA] {
+    CHANNEL.map(|i| rgb[i])
 }
+/// Which channel stands in each place of a spectrum.
+pub(crate) const CHANNEL: [usize; N_LAMBDA] = [0, 1, 2, 1];
 
 /// RGB of one space in another. White is not adapted.
 #[inline]

@@ -1,7 +1,8 @@
 //! How a picture is taken of a scene: everything a render needs beside the scene itself.
 
+use sparrow_math::Real;
 use sparrow_scene::{FilterDesc, IntegratorName, RandomizeName, SamplerDesc, SamplerName, SceneDesc};
-use sparrow_spectra::{Sensor, Spectrum, Wavelengths};
+use sparrow_spectra::{N_LAMBDA, Sensor, Spectrum, Wavelengths};
 
 use crate::colour::Carrier;
 use crate::filter::{Filter, FilterSampler};
@@ -62,16 +63,30 @@ impl FilmSensor {
     /// Linear RGB of the output colour space, for one sample.
     #[inline]
     pub fn rgb(&self, l: Spectrum<f32>, w: &Wavelengths) -> [f32; 3] {
-        let mut s = match &self.response {
-            Response::Spectral(sensor) => sensor.to_sensor_rgb(l, w),
-            Response::Rgb(to_xyz) => to_xyz.map(|m| m[0] * l[0] + m[1] * l[1] + m[2] * l[2]),
-        };
-        let largest = s[0].max(s[1]).max(s[2]);
-        if largest > self.max_component {
-            s = s.map(|c| c * (self.max_component / largest));
-        }
-        self.to_output.map(|row| row[0] * s[0] + row[1] * s[1] + row[2] * s[2])
+        self.rgb_of(l, w.pdf_spectrum(), w.index.map(f32::from))
     }
+
+    /// [`rgb`](Self::rgb) of one sample, or of lanes of them, whose [wavelengths](Wavelengths) have that density and index.
+    #[inline(always)]
+    pub(crate) fn rgb_of<R: Real>(&self, l: Spectrum<R>, pdf: Spectrum<R>, index: [R; N_LAMBDA]) -> [R; 3] {
+        let s = match &self.response {
+            Response::Spectral(sensor) => sensor.respond(l, pdf, index),
+            Response::Rgb(to_xyz) => product(to_xyz, [l[0], l[1], l[2]]),
+        };
+        let (largest, most) = (s[0].max(s[1]).max(s[2]), R::of(f64::from(self.max_component)));
+        let scale = R::select(largest.gt(most), most / largest, R::ONE);
+        product(&self.to_output, [s[0] * scale, s[1] * scale, s[2] * scale])
+    }
+}
+
+#[inline(always)]
+fn product<R: Real>(m: &[[f32; 3]; 3], v: [R; 3]) -> [R; 3] {
+    let mut out = [R::ZERO; 3];
+    for (out, row) in out.iter_mut().zip(m) {
+        let [a, b, c] = [row[0], row[1], row[2]];
+        *out = R::of(f64::from(a)) * v[0] + R::of(f64::from(b)) * v[1] + R::of(f64::from(c)) * v[2];
+    }
+    out
 }
 
 impl RenderPlan {

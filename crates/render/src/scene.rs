@@ -118,8 +118,9 @@ impl Scene {
         };
         let Some(point) = hit else {
             return self.lights.infinite().iter().fold(Spectrum::ZERO, |sum, &light| {
-                let l = self.lights.escaped(light, ray.d, w);
-                sum + weighted(l, light, &|at| self.lights.pdf_of_escape(light, at, ray.d))
+                let place = self.lights.place_of(light, ray.d);
+                let l = self.lights.escaped(light, place, w);
+                sum + weighted(l, light, &|at| self.lights.pdf_of_escape(light, at, ray.d, place))
             });
         };
         let Some(light) = self.lights.of_primitive(point.shape, point.prim) else { return Spectrum::ZERO };

@@ -141,6 +141,12 @@ impl InLanes for FillSigmoid<'_> {
     }
 }
 
+/// The value of a [`DenseSpectrum`] at `nm`: that of the nearest whole nanometre, as [`Wavelengths`] has it.
+#[inline(always)]
+pub(crate) fn dense_at<R: Real>(table: &[f32], nm: R) -> R {
+    (nm - R::of(f64::from(LAMBDA_MIN)) + R::of(0.5)).look_up(table)
+}
+
 struct FillDense<'a> {
     table: &'a [f32],
     scale: f32,
@@ -154,9 +160,7 @@ impl InLanes for FillDense<'_> {
     #[inline(always)]
     fn run<R: Real>(self) {
         for k in (0..self.n).step_by(R::WIDTH) {
-            // The nearest whole nanometre, as `Wavelengths` has it.
-            let place = R::load(self.nm, k) - R::of(f64::from(LAMBDA_MIN)) + R::of(0.5);
-            (place.look_up(self.table) * R::of(self.scale.into())).store(self.out, k);
+            (dense_at(self.table, R::load(self.nm, k)) * R::of(self.scale.into())).store(self.out, k);
         }
     }
 }

@@ -1,5 +1,7 @@
 //! Spectra tabulated at every nanometre: [`DenseSpectrum`].
 
+use sparrow_math::Real;
+
 use crate::{N_LAMBDA, Spectrum, Wavelengths};
 
 /// Entries of a [`DenseSpectrum`]: 360 to 830 nm in steps of 1 nm.
@@ -42,6 +44,12 @@ impl DenseSpectrum {
             *o = self.0[usize::from(i).min(N_DENSE - 1)];
         }
         Spectrum(out)
+    }
+
+    /// The value at an index, or in lanes; indices beyond the table read the last value.
+    #[inline(always)]
+    pub fn look_up<R: Real>(&self, index: R) -> R {
+        index.look_up(&self.0[..])
     }
 
     /// The value at the nanometre nearest to `lambda`; zero outside the table.

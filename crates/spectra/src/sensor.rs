@@ -2,8 +2,10 @@
 
 mod camera;
 
+use sparrow_math::Real;
+
 use crate::matrix::{self, Mat3};
-use crate::{ColorSpace, DenseSpectrum, Spectrum, Wavelengths, cie, daylight};
+use crate::{ColorSpace, DenseSpectrum, N_LAMBDA, Spectrum, Wavelengths, cie, daylight};
 
 /// The sensors with data, by the names scenes use.
 const NAMES: [&str; 20] = [
@@ -84,9 +86,23 @@ impl Sensor {
     /// lights are scaled by [`photometric`](crate::photometric), so white of luminance one measures one.
     #[inline]
     pub fn to_sensor_rgb(&self, l: Spectrum<f32>, w: &Wavelengths) -> [f32; 3] {
-        let l = l.zip(w.pdf_spectrum(), |l, p| if p > 0.0 { l / p } else { 0.0 });
-        let [r, g, b] = &self.bars;
-        [r, g, b].map(|bar| self.imaging_ratio * (bar.at(w) * l).average())
+        self.respond(l, w.pdf_spectrum(), w.index.map(f32::from))
+    }
+
+    /// [`to_sensor_rgb`](Self::to_sensor_rgb) of one path, or of lanes of them, whose [wavelengths](Wavelengths) have that density and
+    /// index.
+    #[inline(always)]
+    pub fn respond<R: Real>(&self, l: Spectrum<R>, pdf: Spectrum<R>, index: [R; N_LAMBDA]) -> [R; 3] {
+        let mut rgb = [R::ZERO; 3];
+        for (rgb, bar) in rgb.iter_mut().zip(&self.bars) {
+            let mut seen = Spectrum([R::ZERO; N_LAMBDA]);
+            for i in 0..N_LAMBDA {
+                let there = pdf[i].gt(R::ZERO);
+                seen.0[i] = bar.look_up(index[i]) * R::select(there, l[i] / pdf[i], R::ZERO);
+            }
+            *rgb = R::of(f64::from(self.imaging_ratio)) * seen.average();
+        }
+        rgb
     }
 
     /// Matrix from sensor RGB to linear RGB of the output space, rows first.

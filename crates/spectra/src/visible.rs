@@ -9,7 +9,7 @@ use crate::{ColorSpace, LAMBDA_MIN, N_DENSE, cie};
 /// Bins of one nanometre between 360 and 830.
 const N_BINS: usize = N_DENSE - 1;
 /// Entries of the table that says where to begin looking.
-const N_GUIDE: usize = 1024;
+const N_GUIDE: usize = 2048;
 /// Width of the smoothing, in nm.
 const SIGMA: f32 = 20.0;
 
@@ -66,16 +66,18 @@ impl Visible {
     #[inline(always)]
     pub(crate) fn sample<R: Real>(&self, u: R) -> (R, R) {
         let mut bin = (u * R::of(N_GUIDE as f64)).look_up(&self.guide);
-        loop {
+        let above = loop {
             let next = bin + R::ONE;
-            let beyond = next.lt(R::of(N_BINS as f64)) & next.look_up(&self.cdf).le(u);
+            let above = next.look_up(&self.cdf);
+            let beyond = next.lt(R::of(N_BINS as f64)) & above.le(u);
             if !beyond.any() {
-                break;
+                break above;
             }
             bin = R::select(beyond, next, bin);
-        }
-        let pdf = bin.look_up(&self.pdf);
-        let inside = ((u - bin.look_up(&self.cdf)) / pdf).clamp(R::ZERO, R::ONE);
+        };
+        let below = bin.look_up(&self.cdf);
+        let pdf = above - below;
+        let inside = ((u - below) / pdf).clamp(R::ZERO, R::ONE);
         (R::of(f64::from(LAMBDA_MIN)) + bin + inside, pdf)
     }
 

@@ -34,8 +34,11 @@ impl Wavelengths {
             let mut columns = Columns::default();
             columns.u[..u.len()].copy_from_slice(u);
             in_lanes(Draw(Visible::get(), &mut columns));
-            out.extend((0..u.len()).map(|i| {
-                Self::with_pdf(columns.lambda.each_ref().map(|c| c[i]), columns.pdf.each_ref().map(|c| c[i]))
+            let Columns { lambda, pdf, index, .. } = &columns;
+            out.extend((0..u.len()).map(|i| Self {
+                lambda: [lambda[0][i], lambda[1][i], lambda[2][i], lambda[3][i]],
+                pdf: [pdf[0][i], pdf[1][i], pdf[2][i], pdf[3][i]],
+                index: [index[0][i], index[1][i], index[2][i], index[3][i]],
             }));
         }
     }
@@ -56,7 +59,7 @@ impl Wavelengths {
     #[inline]
     pub fn with_pdf(lambda: [f32; N_LAMBDA], pdf: [f32; N_LAMBDA]) -> Self {
         let lambda = lambda.map(|l| l.clamp(LAMBDA_MIN, LAMBDA_MAX));
-        Self { lambda, pdf, index: lambda.map(|l| (l - LAMBDA_MIN + 0.5) as u16) }
+        Self { lambda, pdf, index: lambda.map(nearest) }
     }
 
     /// The densities as a spectrum.
@@ -84,6 +87,12 @@ impl Wavelengths {
     }
 }
 
+/// The whole nanometre nearest to a wavelength of the range, less 360.
+#[inline(always)]
+fn nearest(lambda: f32) -> u16 {
+    (lambda - LAMBDA_MIN + 0.5) as u16
+}
+
 /// Wavelengths from `u + i/4`, wrapped, and their densities.
 #[inline(always)]
 fn visible<R: Real>(density: &Visible, u: R) -> ([R; N_LAMBDA], [R; N_LAMBDA]) {
@@ -104,11 +113,13 @@ struct Columns {
     u: [f32; CHUNK],
     lambda: [[f32; CHUNK]; N_LAMBDA],
     pdf: [[f32; CHUNK]; N_LAMBDA],
+    index: [[u16; CHUNK]; N_LAMBDA],
 }
 
 impl Default for Columns {
     fn default() -> Columns {
-        Columns { u: [0.0; CHUNK], lambda: [[0.0; CHUNK]; N_LAMBDA], pdf: [[0.0; CHUNK]; N_LAMBDA] }
+        let (lambda, index) = ([[0.0; CHUNK]; N_LAMBDA], [[0; CHUNK]; N_LAMBDA]);
+        Columns { u: [0.0; CHUNK], lambda, pdf: lambda, index }
     }
 }
 
@@ -118,12 +129,17 @@ impl InLanes for Draw<'_> {
     type Output = ();
     #[inline(always)]
     fn run<R: Real>(self) {
-        let Draw(density, Columns { u, lambda, pdf }) = self;
+        let Draw(density, Columns { u, lambda, pdf, index }) = self;
         for i in (0..CHUNK).step_by(R::WIDTH) {
             let (l, p) = visible(density, R::load(u, i));
             for k in 0..N_LAMBDA {
                 l[k].store(&mut lambda[k], i);
                 p[k].store(&mut pdf[k], i);
+            }
+        }
+        for (index, lambda) in index.iter_mut().zip(lambda) {
+            for (i, l) in index.iter_mut().zip(lambda) {
+                *i = nearest(*l);
             }
         }
     }

@@ -36,9 +36,20 @@ fn magnitude(x: f64) -> u128 {
     u128::from(whole + u64::from(rest > half || (rest == half && whole & 1 == 1)))
 }
 
+/// Added to a number below 2^51 in magnitude, leaves it in the lowest bits, rounded to the nearest, halves to even.
+const ROUND: f64 = 1.5 * 4_503_599_627_370_496.0;
+
 /// A term of a signed sum, cut at ±2^40.
 #[inline(always)]
 pub(crate) fn value(x: f64) -> i128 {
+    if x.abs() < 134_217_728.0 {
+        // In two parts, of steps of 2^-24 and 2^-64; what the first leaves is exact.
+        let scaled = x * 16_777_216.0;
+        let upper = scaled + ROUND;
+        let lower = (scaled - (upper - ROUND)) * 1_099_511_627_776.0 + ROUND;
+        let steps = |rounded: f64| (rounded.to_bits() as i64).wrapping_sub(ROUND.to_bits() as i64);
+        return (i128::from(steps(upper)) << 40) + i128::from(steps(lower));
+    }
     let m = magnitude(x.clamp(-TERM_MAX, TERM_MAX)) as i128;
     if x < 0.0 { -m } else { m }
 }
@@ -78,9 +89,16 @@ mod tests {
             (1e12, 1_000_000_000_000 * one),
             (1e30, one << 40),
             (f64::MIN, -(one << 40)),
+            (134_217_727.999_999_98, (one << 27) - (one >> 26)),
+            (-134_217_728.0, -(one << 27)),
+            (0.5 / 16_777_216.0, one >> 25),
         ] {
             assert_eq!(value(x), want, "{x}");
         }
+    }
+
+    fn magnitude_of(x: f64) -> i128 {
+        magnitude(x) as i128
     }
 
     #[test]
@@ -90,6 +108,7 @@ mod tests {
             // From 2^-12 on the product is a whole number, and the cast is exact.
             let scaled = x / VALUE_STEP;
             assert_eq!(value(x), scaled.round_ties_even() as i128, "{x}");
+            assert_eq!(value(-x), -magnitude_of(x), "{x}");
             x *= 1.37;
         }
     }

@@ -18,7 +18,7 @@ const FIRST_BOUNCE: u32 = 4;
 /// Dimensions of one bounce: light (1 + 2), direction (1 + 2), roulette (1).
 const PER_BOUNCE: u32 = 7;
 
-/// Dimensions of the bounce at a vertex: the choice of a light, then a point of it.
+/// Dimensions of the bounce at a vertex: the choice of a light and a point of it, drawn as one point.
 pub(super) fn light_dimension(depth: u32) -> u32 {
     FIRST_BOUNCE + depth * PER_BOUNCE
 }
@@ -123,10 +123,11 @@ impl PathIntegrator {
 
             // Direct light.
             sampler.set_dimension(light_dimension(depth));
-            let turn = self.mis.turn(sampler.get_1d());
+            let [choice, u, v] = sampler.get_3d();
+            let turn = self.mis.turn(choice);
             if own && turn.light && bsdf.has_smooth_lobe() {
                 let found = |light, w| record.found(Finder::Light(depth), beta * light, w);
-                l += beta * self.direct(scene, &point, &bsdf, wo, n, lambda, turn.u, sampler, rays, found);
+                l += beta * self.direct(scene, &point, &bsdf, wo, n, lambda, turn.u, [u, v], rays, found);
             }
 
             // Next vertex.
@@ -170,12 +171,12 @@ impl PathIntegrator {
         n: f32,
         lambda: &Wavelengths,
         choice: f32,
-        sampler: &mut PixelSampler<'_>,
+        on_light: [f32; 2],
         rays: &mut RayCounts,
         found: impl FnOnce(Spectrum<f32>, f32),
     ) -> Spectrum<f32> {
         let at = LitPoint { p: point.p, n: point.ns };
-        let Some(light) = scene.sample_light(&at, choice, sampler.get_2d(), lambda) else {
+        let Some(light) = scene.sample_light(&at, choice, on_light, lambda) else {
             return Spectrum::ZERO;
         };
         let (f_cos, pdf) = bsdf.f_cos_pdf(wo, light.wi);

@@ -118,10 +118,21 @@ impl<'a, T: TileObserver> Exposed<'a, T> {
         lambda: &Wavelengths,
         record: &T::Record,
     ) {
+        self.take_rgb(place, self.plan.sensor.rgb(l, lambda), lambda, record);
+    }
+
+    /// Takes what a path found, as [`FilmSensor::rgb`](crate::plan::FilmSensor::rgb) shows it.
+    #[inline]
+    pub(crate) fn take_rgb(
+        &mut self,
+        place: FilmPlace,
+        rgb: [f32; 3],
+        lambda: &Wavelengths,
+        record: &T::Record,
+    ) {
         let sensor = &self.plan.sensor;
         let FilmPlace { pixel, weight, .. } = place;
-        let sample = Sample { pixel, rgb: sensor.rgb(l, lambda), weight };
-        let rgb = self.observer.take(sample, record, |part| sensor.rgb(part, lambda));
+        let rgb = self.observer.take(Sample { pixel, rgb, weight }, record, |part| sensor.rgb(part, lambda));
         self.film.add(pixel[0], pixel[1], rgb, weight);
     }
 

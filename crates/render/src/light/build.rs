@@ -12,7 +12,7 @@ use sparrow_spectra::{ColorSpace, photometric};
 
 use super::bounds::{Cone, LightBounds};
 use super::portal::Portal;
-use super::{Environment, EnvironmentColour, Light, LightSelection, Lights, NO_LIGHT};
+use super::{Environment, EnvironmentColour, EnvironmentMap, Light, LightSelection, Lights, NO_LIGHT};
 use crate::colour::{Carrier, converted};
 use crate::spectrum::SceneSpectrum;
 use crate::texture::to_equal_area;
@@ -182,8 +182,8 @@ impl LightBuild<'_> {
             LightKind::InfiniteImage { path, scale, illuminance, color_space } => {
                 let image =
                     EnvironmentImage { path, scale: *scale, illuminance: *illuminance, space: *color_space };
-                let env =
-                    image.load(&light.to_world, self.compensate, out.carrier)?.through(self.portal(light));
+                let map = image.load(out.carrier)?;
+                let env = Environment::new(map, &light.to_world, self.compensate, self.portal(light));
                 out.infinite.push(out.lights.len() as u32);
                 let strength = env.mean() * four_pi * disk;
                 out.push(Light::Environment(Box::new(env)), strength, Aabb::EMPTY, Cone::ALL);
@@ -202,7 +202,7 @@ struct EnvironmentImage<'a> {
 }
 
 impl EnvironmentImage<'_> {
-    fn load(&self, to_world: &Transform, compensate: bool, carrier: Carrier) -> Result<Environment, String> {
+    fn load(&self, carrier: Carrier) -> Result<EnvironmentMap, String> {
         let image = Image::read(self.path, None).map_err(|e| e.to_string())?;
         if image.width != image.height && image.width != 2 * image.height {
             return Err(format!(
@@ -218,7 +218,7 @@ impl EnvironmentImage<'_> {
             Some(e) => self.scale * e / upper_illuminance(n, &rgb).max(1e-30),
             None => self.scale,
         };
-        let light = match carrier {
+        let colour = match carrier {
             Carrier::Rgb(space) => {
                 rgb.iter_mut().for_each(|c| *c = converted(*c, self.space, space).map(|c| c.max(0.0)));
                 EnvironmentColour::Rgb
@@ -229,7 +229,7 @@ impl EnvironmentImage<'_> {
                 EnvironmentColour::Spectral { space: self.space, illuminant }
             }
         };
-        Ok(Environment::new(n, rgb, scale, light, to_world, compensate))
+        Ok(EnvironmentMap { n, rgb, scale, colour })
     }
 }
 

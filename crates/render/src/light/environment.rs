@@ -2,12 +2,15 @@
 
 use core::f32::consts::PI;
 
-use sparrow_math::{Transform, Vec3, warp};
-use sparrow_spectra::{ColorSpace, DenseSpectrum, Spectrum, Wavelengths, rgb_to_sigmoid};
+use rayon::prelude::*;
+use sparrow_math::{InLanes, Real, Transform, Vec3, in_lanes, vec3, warp};
+use sparrow_spectra::{ColorSpace, DenseSpectrum, N_LAMBDA, Sigmoid, Spectrum, Wavelengths, rgb_to_sigmoid};
 
 use super::portal::Portal;
-use crate::colour::four;
+use crate::colour::{CHANNEL, four};
 use crate::distribution::{Draw2, Piecewise2};
+use crate::integrator::Column;
+use crate::spectrum::dense_at;
 
 /// Cells along a side of a portal's view of a map: 8 MiB.
 const MOST_PORTAL_CELLS: usize = 1024;
@@ -26,14 +29,28 @@ pub enum EnvironmentColour {
     Rgb,
 }
 
-/// An environment map in pbrt-v4's square equal-area layout, looked up at the nearest pixel.
+/// An environment map as it is read: `n` by `n` pixels of linear RGB, row by row, in pbrt-v4's square equal-area layout.
+#[derive(Debug)]
+pub struct EnvironmentMap {
+    /// Pixels along each side.
+    pub n: usize,
+    /// The pixels.
+    pub rgb: Vec<[f32; 3]>,
+    /// Factor on them.
+    pub scale: f32,
+    /// What they stand for.
+    pub colour: EnvironmentColour,
+}
+
+/// An environment map, looked up at the nearest pixel.
 #[derive(Debug)]
 pub struct Environment {
     n: usize,
-    /// Linear RGB, row by row.
-    rgb: Vec<[f32; 3]>,
-    scale: f32,
-    colour: EnvironmentColour,
+    /// Row by row: coefficients of a [`Sigmoid`] and a factor, or the channels that paths carry and a factor.
+    texels: Vec<[f32; 4]>,
+    /// None where paths carry channels.
+    illuminant: Option<DenseSpectrum>,
+    mean: f32,
     density: Piecewise2,
     /// The opening through which it is sampled.
     portal: Option<Box<Portal>>,
@@ -41,19 +58,28 @@ pub struct Environment {
     axes: [Vec3<f32>; 3],
 }
 
+/// A direction that was drawn.
+#[derive(Clone, Copy, Debug)]
+pub struct EnvironmentDraw {
+    /// The direction, unit.
+    pub wi: Vec3<f32>,
+    /// Its density in 1/sr.
+    pub pdf: f32,
+    texel: usize,
+}
+
 impl Environment {
-    /// Takes an `n` by `n` image.
+    /// Prepares a map that stands in the world as `to_world` says.
     ///
     /// With `compensate` the sampling density is sharpened: what lies below the mean is left to BSDF
-    /// sampling. [Karlik2019]
+    /// sampling. [Karlik2019] Where there are `corners` of a rectangle, it is sampled through that.
     pub fn new(
-        n: usize,
-        rgb: Vec<[f32; 3]>,
-        scale: f32,
-        colour: EnvironmentColour,
+        map: EnvironmentMap,
         to_world: &Transform,
         compensate: bool,
+        corners: Option<[Vec3<f64>; 4]>,
     ) -> Environment {
+        let EnvironmentMap { n, rgb, scale, colour } = map;
         let mut brightness: Vec<f32> = rgb.iter().map(|c| ((c[0] + c[1] + c[2]) / 3.0).max(0.0)).collect();
         if compensate {
             let mean = brightness.iter().map(|&b| f64::from(b)).sum::<f64>() / brightness.len().max(1) as f64;
@@ -65,84 +91,179 @@ impl Environment {
         }
         let axis = |v| to_world.vector(v).to_f32().normalized();
         let e = [(1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)];
-        Environment {
+        let sum: f64 = rgb.iter().map(|c| f64::from(c[0] + c[1] + c[2]) / 3.0).sum();
+        let mut environment = Environment {
             n,
-            rgb,
-            scale,
-            colour,
+            texels: Vec::new(),
+            illuminant: None,
+            mean: (sum / rgb.len().max(1) as f64) as f32 * scale,
             density: Piecewise2::new(&brightness, n, n),
             portal: None,
-            axes: e.map(|(x, y, z)| axis(sparrow_math::vec3(x, y, z))),
-        }
-    }
-
-    /// The same, sampled through a rectangle with these corners.
-    #[must_use]
-    pub(super) fn through(mut self, corners: Option<[Vec3<f64>; 4]>) -> Environment {
-        let brightness = |wi| {
-            let c = self.pixel(wi);
-            (c[0] + c[1] + c[2]) / 3.0
+            axes: e.map(|(x, y, z)| axis(vec3(x, y, z))),
         };
-        let side = self.n.clamp(64, MOST_PORTAL_CELLS);
-        self.portal = corners.and_then(|c| Portal::new(c, side, brightness)).map(Box::new);
-        self
+        let through = corners.and_then(|c| {
+            let brightness = |wi| {
+                let c = rgb[environment.texel(environment.place(wi))];
+                (c[0] + c[1] + c[2]) / 3.0
+            };
+            Portal::new(c, n.clamp(64, MOST_PORTAL_CELLS), brightness)
+        });
+        environment.portal = through.map(Box::new);
+        let texels = rgb.par_iter();
+        (environment.texels, environment.illuminant) = match colour {
+            EnvironmentColour::Rgb => (texels.map(|[r, g, b]| [*r, *g, *b, scale]).collect(), None),
+            EnvironmentColour::Spectral { space, illuminant } => {
+                (texels.map(|c| coefficients(*c, scale, space)).collect(), Some(illuminant))
+            }
+        };
+        environment
     }
 
-    /// A direction for the point `from`, and its density in 1/sr.
-    pub fn sample(&self, from: Vec3<f32>, u: [f32; 2]) -> Option<(Vec3<f32>, f32)> {
+    /// A direction for the point `from`.
+    #[inline]
+    pub fn sample(&self, from: Vec3<f32>, u: [f32; 2]) -> Option<EnvironmentDraw> {
         if let Some(portal) = &self.portal {
-            return portal.sample(from, u);
+            let (wi, pdf) = portal.sample(from, u)?;
+            return Some(EnvironmentDraw { wi, pdf, texel: self.texel(self.place(wi)) });
         }
-        let Draw2 { p: st, pdf, .. } = self.density.sample(u);
-        if !(pdf > 0.0) {
-            return None;
+        let Draw2 { p, pdf, index: [x, y] } = self.density.sample(u);
+        let wi = self.to_world(warp::equal_area_square_to_sphere(p));
+        (pdf > 0.0).then(|| EnvironmentDraw { wi, pdf: pdf / (4.0 * PI), texel: y * self.n + x })
+    }
+    /// Radiance from a direction that was drawn.
+    #[inline]
+    pub fn drawn(&self, draw: &EnvironmentDraw, w: &Wavelengths) -> Spectrum<f32> {
+        self.at(draw.texel, w)
+    }
+    /// [`sample_many`](Self::sample_many) has lanes for it.
+    pub(super) fn samples_in_lanes(&self) -> bool {
+        self.portal.is_none()
+    }
+    /// [`sample`](Self::sample) and [`drawn`](Self::drawn) by `u` for `n` points, to the bit; the density is zero where nothing is
+    /// drawn. Not for maps with a portal.
+    pub(super) fn sample_many(
+        &self,
+        n: usize,
+        u: [&[f32]; 2],
+        (wi, pdf): (&mut [&mut [f32]; 3], &mut [f32]),
+        nm: [&[f32]; N_LAMBDA],
+        radiance: [&mut [f32]; N_LAMBDA],
+    ) {
+        let mut drawn = Drawn::default();
+        for k in 0..n {
+            let Draw2 { p, pdf: density, index: [x, y] } = self.density.sample([u[0][k], u[1][k]]);
+            pdf[k] = if density > 0.0 { density / (4.0 * PI) } else { 0.0 };
+            let row = self.texels[y * self.n + x];
+            drawn.p.iter_mut().zip(p).for_each(|(column, x)| column[k] = x);
+            drawn.texel.iter_mut().zip(row).for_each(|(column, x)| column[k] = x);
         }
-        let d = warp::equal_area_square_to_sphere(st);
-        Some((self.axes[0] * d.x + self.axes[1] * d.y + self.axes[2] * d.z, pdf / (4.0 * PI)))
+        in_lanes(Shine { environment: self, drawn: &drawn, n, wi, nm, radiance });
     }
 
-    /// Density of a direction for the point `from`, in 1/sr.
-    pub fn pdf(&self, from: Vec3<f32>, wi: Vec3<f32>) -> f32 {
+    /// Density of a direction for the point `from`, in 1/sr; the map has it at `place`.
+    #[inline]
+    pub fn pdf(&self, from: Vec3<f32>, wi: Vec3<f32>, place: [f32; 2]) -> f32 {
         match &self.portal {
             Some(portal) => portal.pdf(from, wi),
-            None => self.density.pdf(self.square(wi)) / (4.0 * PI),
+            None => self.density.pdf(place) / (4.0 * PI),
         }
     }
 
-    /// The pixel that a direction falls into.
-    fn pixel(&self, wi: Vec3<f32>) -> [f32; 3] {
-        let st = self.square(wi);
+    /// Where the map has a direction, in the unit square.
+    #[inline]
+    pub fn place(&self, wi: Vec3<f32>) -> [f32; 2] {
+        let d = vec3(wi.dot(self.axes[0]), wi.dot(self.axes[1]), wi.dot(self.axes[2]));
+        warp::equal_area_sphere_to_square(d)
+    }
+    /// Radiance from a place.
+    #[inline]
+    pub fn radiance(&self, place: [f32; 2], w: &Wavelengths) -> Spectrum<f32> {
+        self.at(self.texel(place), w)
+    }
+    #[inline]
+    fn texel(&self, [s, t]: [f32; 2]) -> usize {
         let at = |v: f32| ((v * self.n as f32) as usize).min(self.n - 1);
-        self.rgb[at(st[1]) * self.n + at(st[0])]
+        at(t) * self.n + at(s)
     }
-
-    /// Radiance from a direction.
-    pub fn radiance(&self, wi: Vec3<f32>, w: &Wavelengths) -> Spectrum<f32> {
-        let rgb = self.pixel(wi);
-        let EnvironmentColour::Spectral { space, illuminant } = &self.colour else {
-            return Spectrum(four(rgb)) * self.scale;
-        };
-        let m = 2.0 * rgb[0].max(rgb[1]).max(rgb[2]);
-        if !(m > 0.0) {
-            return Spectrum::ZERO;
+    #[inline]
+    fn at(&self, texel: usize, w: &Wavelengths) -> Spectrum<f32> {
+        let [a, b, c, scale] = self.texels[texel];
+        match &self.illuminant {
+            Some(illuminant) => Sigmoid { c: [a, b, c] }.at(w) * illuminant.at(w) * scale,
+            None => Spectrum(four([a, b, c])) * scale,
         }
-        let s = rgb_to_sigmoid(rgb.map(|c| (c / m).max(0.0)), *space);
-        s.at(w) * illuminant.at(w) * (m * self.scale)
+    }
+    #[inline(always)]
+    fn to_world<R: Real>(&self, d: Vec3<R>) -> Vec3<R> {
+        let axis = |i: usize| {
+            let a = self.axes[i];
+            vec3(R::of(a.x.into()), R::of(a.y.into()), R::of(a.z.into()))
+        };
+        axis(0) * d.x + axis(1) * d.y + axis(2) * d.z
     }
 
     /// Mean of the image times the scale: for estimates of power.
     pub fn mean(&self) -> f32 {
-        let sum: f64 = self.rgb.iter().map(|c| f64::from(c[0] + c[1] + c[2]) / 3.0).sum();
-        (sum / self.rgb.len().max(1) as f64) as f32 * self.scale
+        self.mean
     }
 
     /// Memory, in bytes.
     pub fn bytes(&self) -> usize {
-        self.rgb.len() * 12 + self.density.bytes() + self.portal.as_ref().map_or(0, |p| p.bytes())
+        self.texels.len() * 16 + self.density.bytes() + self.portal.as_ref().map_or(0, |p| p.bytes())
     }
+}
 
-    fn square(&self, wi: Vec3<f32>) -> [f32; 2] {
-        let d = sparrow_math::vec3(wi.dot(self.axes[0]), wi.dot(self.axes[1]), wi.dot(self.axes[2]));
-        warp::equal_area_sphere_to_square(d)
+/// A pixel as the coefficients of a reflectance and a factor on the illuminant.
+fn coefficients(rgb: [f32; 3], scale: f32, space: ColorSpace) -> [f32; 4] {
+    let m = 2.0 * rgb[0].max(rgb[1]).max(rgb[2]);
+    if !(m > 0.0) {
+        return [0.0; 4];
+    }
+    let [a, b, c] = rgb_to_sigmoid(rgb.map(|c| (c / m).max(0.0)), space).c;
+    [a, b, c, m * scale]
+}
+
+/// Places and texels that were drawn, in columns.
+#[derive(Default)]
+struct Drawn {
+    p: [Column; 2],
+    texel: [Column; 4],
+}
+
+/// Directions and radiances of what was drawn.
+struct Shine<'a, 'b> {
+    environment: &'a Environment,
+    drawn: &'a Drawn,
+    n: usize,
+    wi: &'a mut [&'b mut [f32]; 3],
+    nm: [&'a [f32]; N_LAMBDA],
+    radiance: [&'a mut [f32]; N_LAMBDA],
+}
+
+impl InLanes for Shine<'_, '_> {
+    type Output = ();
+    #[inline(always)]
+    fn run<R: Real>(self) {
+        let Shine { environment, drawn, n, wi, nm, radiance } = self;
+        for k in (0..n).step_by(R::WIDTH) {
+            let p = [R::load(&drawn.p[0][..], k), R::load(&drawn.p[1][..], k)];
+            let d = environment.to_world(warp::equal_area_square_to_sphere(p));
+            d.x.store(wi[0], k);
+            d.y.store(wi[1], k);
+            d.z.store(wi[2], k);
+            let [a, b, c, scale] = &drawn.texel;
+            let rgb = [R::load(&a[..], k), R::load(&b[..], k), R::load(&c[..], k)];
+            let scale = R::load(&scale[..], k);
+            for i in 0..N_LAMBDA {
+                let value = match &environment.illuminant {
+                    Some(illuminant) => {
+                        let nm = R::load(nm[i], k);
+                        Sigmoid::eval(rgb, nm) * dense_at(illuminant.values(), nm)
+                    }
+                    None => rgb[CHANNEL[i]],
+                };
+                (value * scale).store(radiance[i], k);
+            }
+        }
     }
 }

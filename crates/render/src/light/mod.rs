@@ -21,7 +21,7 @@ use crate::spectrum::SceneSpectrum;
 use portal::Portal;
 
 pub use build::LightBuild;
-pub use environment::{Environment, EnvironmentColour};
+pub use environment::{Environment, EnvironmentColour, EnvironmentDraw, EnvironmentMap};
 pub(crate) use few::LitPoints;
 pub use selection::LightSelection;
 
@@ -118,6 +118,18 @@ pub enum Target {
     Infinity,
 }
 
+/// Where the shadow rays of many samples of one light end.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Ends {
+    /// On a surface, at points with that bound of rounding errors.
+    OnSurface {
+        /// The bound.
+        p_error: Vec3<f32>,
+    },
+    /// Nowhere.
+    Nowhere,
+}
+
 /// The point that is lit, as far as the choice of a light depends on it.
 #[derive(Clone, Copy, Debug)]
 pub struct LitPoint {
@@ -194,12 +206,15 @@ impl Lights {
 
     /// [`sample_many`](Self::sample_many) has lanes for that light.
     pub(crate) fn samples_in_lanes(&self, geometry: &Geometry, light: u32) -> bool {
-        matches!(self.lights[light as usize], Light::Area { shape, prim, .. } if geometry.samples_in_lanes(shape, prim))
+        match &self.lights[light as usize] {
+            Light::Area { shape, prim, .. } => geometry.samples_in_lanes(*shape, *prim),
+            Light::Environment(e) => e.samples_in_lanes(),
+            Light::Point { .. } | Light::Spot { .. } | Light::Distant { .. } | Light::Uniform { .. } => false,
+        }
     }
 
     /// [`sample`](Self::sample) from each of the first `n` points of `columns`, in lanes, to the bit: the density is zero where that
-    /// gives none. Returns the bound of the rounding error of the points; `None`, and nothing done, where such lights are drawn
-    /// one by one.
+    /// gives none. Says where these samples lie; `None`, and nothing done, where such lights are drawn one by one.
     pub(crate) fn sample_many(
         &self,
         geometry: &Geometry,
@@ -208,16 +223,22 @@ impl Lights {
         n: usize,
         nm: [&[f32]; N_LAMBDA],
         radiance: [&mut [f32]; N_LAMBDA],
-    ) -> Option<Vec3<f32>> {
-        let Light::Area { shape, prim, emission, scale, two_sided } = self.lights[light as usize] else {
-            return None;
-        };
-        let p_error = geometry.sample_from_many(shape, prim, columns, n)?;
-        if !two_sided {
-            in_lanes(OneSided { columns, n });
+    ) -> Option<Ends> {
+        match &self.lights[light as usize] {
+            Light::Area { shape, prim, emission, scale, two_sided } => {
+                let p_error = geometry.sample_from_many(*shape, *prim, columns, n)?;
+                if !two_sided {
+                    in_lanes(OneSided { columns, n });
+                }
+                self.emissions[*emission as usize].fill(*scale, nm, n, radiance);
+                Some(Ends::OnSurface { p_error })
+            }
+            Light::Environment(e) if e.samples_in_lanes() => {
+                e.sample_many(n, columns.u, (&mut columns.wi, columns.pdf), nm, radiance);
+                Some(Ends::Nowhere)
+            }
+            _ => None,
         }
-        self.emissions[emission as usize].fill(scale, nm, n, radiance);
-        Some(p_error)
     }
 
     /// What the light of a primitive sends from a point drawn on it; none to the side that does not shine.
@@ -281,11 +302,11 @@ impl Lights {
                 })
             }
             Light::Environment(e) => {
-                let (wi, pdf) = e.sample(at.p, u)?;
+                let draw = e.sample(at.p, u)?;
                 Some(LightSample {
-                    wi,
-                    radiance: e.radiance(wi, w),
-                    pdf,
+                    wi: draw.wi,
+                    radiance: e.drawn(&draw, w),
+                    pdf: draw.pdf,
                     delta: false,
                     target: Target::Infinity,
                 })
@@ -337,25 +358,34 @@ impl Lights {
         geometry.pdf_from(point.shape, point.prim, at.viewpoint(), point.p, point.ng)
     }
 
-    /// Radiance of an infinite light from direction `wi`.
+    /// Where an environment map has direction `wi`; of no meaning for other lights.
     #[inline]
-    pub fn escaped(&self, light: u32, wi: Vec3<f32>, w: &Wavelengths) -> Spectrum<f32> {
+    pub fn place_of(&self, light: u32, wi: Vec3<f32>) -> [f32; 2] {
+        match &self.lights[light as usize] {
+            Light::Environment(e) => e.place(wi),
+            _ => [0.0; 2],
+        }
+    }
+    /// Radiance of an infinite light from the direction at that [place](Self::place_of).
+    #[inline]
+    pub fn escaped(&self, light: u32, place: [f32; 2], w: &Wavelengths) -> Spectrum<f32> {
         match &self.lights[light as usize] {
             Light::Uniform { emission, scale, .. } => self.emissions[*emission as usize].at(w) * *scale,
-            Light::Environment(e) => e.radiance(wi, w),
+            Light::Environment(e) => e.radiance(place, w),
             Light::Area { .. } | Light::Point { .. } | Light::Spot { .. } | Light::Distant { .. } => {
                 Spectrum::ZERO
             }
         }
     }
 
-    /// Density with which [`sample`](Self::sample) finds direction `wi` of an infinite light from `at`, in 1/sr.
+    /// Density with which [`sample`](Self::sample) finds direction `wi` of an infinite light from `at`, in 1/sr; an environment map
+    /// has it at `place`.
     #[inline]
-    pub fn pdf_of_escape(&self, light: u32, at: &LitPoint, wi: Vec3<f32>) -> f32 {
+    pub fn pdf_of_escape(&self, light: u32, at: &LitPoint, wi: Vec3<f32>, place: [f32; 2]) -> f32 {
         match &self.lights[light as usize] {
             Light::Uniform { left_to_bsdf: true, .. } => 0.0,
             Light::Uniform { portal, .. } => portal.as_ref().map_or(UNIFORM_SPHERE, |p| p.pdf(at.p, wi)),
-            Light::Environment(e) => e.pdf(at.p, wi),
+            Light::Environment(e) => e.pdf(at.p, wi, place),
             Light::Area { .. } | Light::Point { .. } | Light::Spot { .. } | Light::Distant { .. } => 0.0,
         }
     }

@@ -45,5 +45,6 @@ mod stratified;
 mod tests;
 mod zorder;
 
+pub use column::Draw;
 pub use config::{Randomize, SamplerConfig, SamplerKind};
-pub use pixel::{PixelSampler, Sampler};
+pub use pixel::{Pixel, PixelSampler, Sampler};

@@ -3,7 +3,7 @@
 use super::config::{Randomize, SamplerConfig, SamplerKind};
 use super::halton::{self, HaltonTables};
 use super::hash::{GOLDEN, join, mix, to_unit};
-use super::scramble::{Blocks, padded_pair, padded_single, randomize};
+use super::scramble::{Blocks, padded_pair, padded_single, padded_triple, randomize};
 use super::sobol::{self, SobolTables};
 use super::{stratified, zorder};
 
@@ -131,25 +131,62 @@ impl Sampler {
     /// the others as far as the kind allows.
     #[inline]
     pub fn start(&self, pixel: [u32; 2], sample: u32) -> PixelSampler<'_> {
-        let pixel_word = u64::from(pixel[0]) | (u64::from(pixel[1]) << 32);
-        let mut state = PixelSampler { sampler: self, key: 0, index: u64::from(sample), dimension: 0 };
-        match &self.plan {
+        self.pixel(pixel).start(sample)
+    }
+
+    /// A pixel of the full image.
+    #[inline]
+    pub fn pixel(&self, place: [u32; 2]) -> Pixel<'_> {
+        let (morton, key) = if let Plan::ZOrder { log2_spp } = self.plan {
+            let morton = zorder::paired_morton(place, self.seed);
+            (morton, zorder::key(place, morton, 0, log2_spp, self.seed))
+        } else {
+            (0, join(self.seed, u64::from(place[0]) | (u64::from(place[1]) << 32)))
+        };
+        Pixel { sampler: self, place, morton, key }
+    }
+}
+
+/// A pixel, with what all its samples have in common.
+#[derive(Clone, Copy)]
+pub struct Pixel<'a> {
+    sampler: &'a Sampler,
+    place: [u32; 2],
+    /// Its place on the curve, where the kind follows one.
+    morton: u32,
+    /// Of the samples that were planned, for the kinds whose samples share one.
+    key: u64,
+}
+
+impl<'a> Pixel<'a> {
+    /// Column and row in the full image.
+    #[inline]
+    pub fn place(&self) -> [u32; 2] {
+        self.place
+    }
+
+    /// [`Sampler::start`] for a sample of this pixel.
+    #[inline]
+    pub fn start(&self, sample: u32) -> PixelSampler<'a> {
+        let Pixel { sampler, place, morton, mut key } = *self;
+        let index = match &sampler.plan {
             Plan::ZOrder { log2_spp } => {
-                let (reversed, key) = zorder::place(pixel, sample, *log2_spp, self.seed);
-                state.index = u64::from(reversed);
-                state.key = key;
-                return state;
+                let turn = sample >> log2_spp;
+                if turn > 0 {
+                    key = zorder::key(place, morton, turn, *log2_spp, sampler.seed);
+                }
+                u64::from(zorder::reversed_index(morton, sample, *log2_spp))
             }
-            Plan::Padded => state.index = u64::from(sample.reverse_bits()),
-            Plan::Independent | Plan::Stratified { .. } => {}
-            Plan::Sobol(tables) => state.index = tables.index(pixel, sample),
-            Plan::Halton(tables) => state.index = tables.index(pixel, sample),
-        }
-        state.key = join(self.seed, pixel_word);
-        if matches!(self.plan, Plan::Independent) {
-            state.key = join(state.key, u64::from(sample));
-        }
-        state
+            Plan::Padded => u64::from(sample.reverse_bits()),
+            Plan::Independent => {
+                key = join(key, u64::from(sample));
+                u64::from(sample)
+            }
+            Plan::Stratified { .. } => u64::from(sample),
+            Plan::Sobol(tables) => tables.index(place, sample),
+            Plan::Halton(tables) => tables.index(place, sample),
+        };
+        PixelSampler { sampler, key, index, dimension: 0 }
     }
 }
 
@@ -231,6 +268,23 @@ impl<'a> PixelSampler<'a> {
         let d = self.dimension;
         self.dimension = d.wrapping_add(2);
         self.pair(d)
+    }
+
+    /// A uniform point of the unit cube; takes three dimensions.
+    ///
+    /// The last two are what [`get_2d`](Self::get_2d) gives from the second dimension on. The padded kinds draw the first from the
+    /// same point of a sequence in three dimensions, the others as [`get_1d`](Self::get_1d) does.
+    #[inline]
+    pub fn get_3d(&mut self) -> [f32; 3] {
+        if let Plan::Padded | Plan::ZOrder { .. } = self.sampler.plan {
+            let key = self.key_of(self.dimension.wrapping_add(1));
+            self.dimension = self.dimension.wrapping_add(3);
+            let Sampler { blocks, config, .. } = self.sampler;
+            return padded_triple(self.index as u32, key, blocks, config.randomize).map(to_unit);
+        }
+        let first = self.get_1d();
+        let [u, v] = self.get_2d();
+        [first, u, v]
     }
 
     /// The point in the pixel, for the filter: a pair outside the dimensions, the same at each call.

@@ -53,6 +53,26 @@ pub(crate) fn second_dimension(mut i: u32) -> u32 {
     i ^ ((i & 0xaaaa_aaaa) >> 1)
 }
 
+/// A third dimension beside the radical inverse and [`second_dimension`], of an index, with the lowest bit of the result leading.
+///
+/// The index is read as a polynomial over two elements and written in base `p = x^2 + x + 1`, two bits a digit, as the first
+/// two dimensions write it in base `x` and `x + 1` [Tezuka1993]. The bases have no factor in common, so each aligned block of
+/// `2^(a + b + 2 c)` indices has one point in every box of sides `2^-a`, `2^-b` and `4^-c`.
+#[inline(always)]
+pub(crate) fn third_dimension(mut n: u32) -> u32 {
+    // Divides blocks of 4 m bits by p^m = x^2m + x^m + 1, and leaves quotient and remainder in their halves.
+    for (m, upper, last) in [
+        (8, 0xffff_0000, 0x0000_00ff),
+        (4, 0xff00_ff00, 0x000f_000f),
+        (2, 0xf0f0_f0f0, 0x0303_0303),
+        (1, 0xcccc_cccc, 0x1111_1111),
+    ] {
+        let down = (n & upper) >> m;
+        n ^= down ^ (((down >> m) ^ (down >> (2 * m))) & last);
+    }
+    n
+}
+
 /// Random permutations of blocks of consecutive indices, sixteen at most.
 ///
 /// A base-2 shuffle keeps neighbours neighbours: samples `2 k` and `2 k + 1` lie in opposite halves of
@@ -82,23 +102,27 @@ impl Blocks {
     }
 }
 
+/// Where `key` takes the index whose bits are `reversed`.
+///
+/// The shuffle goes from the top bit of the index down, so that aligned blocks of a power of two stay together; without it the
+/// dimensions would move in step.
+#[inline(always)]
+pub(super) fn shuffled(reversed: u32, key: u64, blocks: &Blocks) -> u32 {
+    let index = nested(reversed, key as u32).reverse_bits();
+    blocks.permute(index, key.wrapping_mul(GOLDEN) as u32)
+}
+
 /// First coordinate of the padded pair: [`padded_pair`] without the second.
 #[inline(always)]
 pub(crate) fn padded_single(reversed: u32, key: u64, blocks: &Blocks, how: Randomize) -> u32 {
-    let index = nested(reversed, key as u32).reverse_bits();
-    let index = blocks.permute(index, key.wrapping_mul(GOLDEN) as u32);
-    randomize(index, (key >> 32) as u32, how).reverse_bits()
+    randomize(shuffled(reversed, key, blocks), (key >> 32) as u32, how).reverse_bits()
 }
 
-/// A point of the (0, 2)-sequence, shuffled and scrambled by `key`, as two binary fractions.
-///
-/// `reversed` is the bit-reversed index. The shuffle goes from the top bit of the index down, so that
-/// aligned blocks of a power of two stay together; without it the dimensions would move in step.
+/// A point of the (0, 2)-sequence, shuffled and scrambled by `key`, as two binary fractions; `reversed` is the bit-reversed index.
 #[inline(always)]
 pub(crate) fn padded_pair(reversed: u32, key: u64, blocks: &Blocks, how: Randomize) -> [u32; 2] {
     let second_key = key.wrapping_mul(GOLDEN);
-    let index = nested(reversed, key as u32).reverse_bits();
-    let index = blocks.permute(index, second_key as u32);
+    let index = shuffled(reversed, key, blocks);
     let x = randomize(index, (key >> 32) as u32, how);
     let y = randomize(second_dimension(index), (second_key >> 32) as u32, how);
     // One reversal of 64 bits costs what one of 32 does, where the processor has no instruction for it.
@@ -106,9 +130,63 @@ pub(crate) fn padded_pair(reversed: u32, key: u64, blocks: &Blocks, how: Randomi
     [both as u32, (both >> 32) as u32]
 }
 
+/// A point of three dimensions: the [third](third_dimension), then [`padded_pair`].
+#[inline(always)]
+pub(crate) fn padded_triple(reversed: u32, key: u64, blocks: &Blocks, how: Randomize) -> [u32; 3] {
+    let third_key = key.wrapping_mul(GOLDEN).wrapping_mul(GOLDEN);
+    let z = third_dimension(shuffled(reversed, key, blocks));
+    let z = randomize(z, (third_key >> 32) as u32, how).reverse_bits();
+    let [x, y] = padded_pair(reversed, key, blocks, how);
+    [z, x, y]
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Digits of the polynomial `n` in base `x^2 + x + 1`, by division.
+    fn digits(mut n: u32) -> u32 {
+        let mut digits = 0;
+        for place in (0..32).step_by(2) {
+            let mut quotient = 0;
+            for bit in (2..32).rev() {
+                if n >> bit & 1 == 1 {
+                    n ^= 0b111 << (bit - 2);
+                    quotient |= 1 << (bit - 2);
+                }
+            }
+            digits |= n << place;
+            n = quotient;
+        }
+        digits
+    }
+
+    #[test]
+    fn third_dimension_is_written_in_its_base() {
+        for i in [0u32, 1, 2, 3, 4, 7, 77, 0x8000_0000, 0xdead_beef, u32::MAX] {
+            assert_eq!(third_dimension(i), digits(i), "index {i}");
+        }
+    }
+
+    #[test]
+    fn three_dimensions_are_a_net() {
+        let log2_n = 8u32;
+        for start in [0u32, 5 << 8, 0xdead_be00] {
+            for c in 0..=log2_n / 2 {
+                for b in 0..=log2_n - 2 * c {
+                    let a = log2_n - 2 * c - b;
+                    let low = |v: u32, bits: u32| v & ((1 << bits) - 1);
+                    let mut seen = [false; 256];
+                    for i in start..start + 256 {
+                        let (x, y, z) =
+                            (low(i, a), low(second_dimension(i), b), low(third_dimension(i), 2 * c));
+                        seen[(x | (y << a) | (z << (a + b))) as usize] = true;
+                    }
+                    assert!(seen.iter().all(|s| *s), "boxes of {a}, {b}, {c} from {start}");
+                }
+            }
+        }
+    }
 
     #[test]
     fn second_dimension_matches_its_recurrence() {

@@ -2,7 +2,7 @@
 
 use sparrow_math::{ONE_MINUS_EPSILON, Real};
 
-use super::{PixelSampler, Randomize, Sampler, SamplerConfig, SamplerKind};
+use super::{Draw, PixelSampler, Randomize, Sampler, SamplerConfig, SamplerKind};
 
 const KINDS: [SamplerKind; 7] = [
     SamplerKind::Independent,
@@ -213,6 +213,31 @@ fn padded_dimensions_are_shuffled_against_each_other() {
 }
 
 #[test]
+fn triples_of_padded_kinds_are_nets() {
+    for (kind, randomize) in
+        [(SamplerKind::PaddedSobol, Randomize::FastOwen), (SamplerKind::ZSobol, Randomize::Owen)]
+    {
+        let config = SamplerConfig { kind, randomize, samples_per_pixel: 64, seed: 5, resolution: [64, 48] };
+        let s = Sampler::new(&config);
+        for (pixel, d) in [([3, 40], 4), ([60, 0], 11)] {
+            let points: Vec<[f32; 3]> = (0..64).map(|i| s.start(pixel, i).at(d).get_3d()).collect();
+            for (i, [_, u, v]) in (0..).zip(&points) {
+                assert_eq!([*u, *v], s.start(pixel, i).at(d + 1).get_2d());
+            }
+            // Boxes of sides 4^-c, 2^-a and 2^-b, with 2 c + a + b = 6.
+            for (c, a, b) in (0..=3).flat_map(|c| (0..=6 - 2 * c).map(move |a| (c, a, 6 - 2 * c - a))) {
+                let place = |x: f32, bits: u32| (x * (1u32 << bits) as f32) as usize;
+                let mut seen = [false; 64];
+                for [w, u, v] in &points {
+                    seen[place(*w, 2 * c) | ((place(*u, a) | (place(*v, b) << a)) << (2 * c))] = true;
+                }
+                assert!(seen.iter().all(|s| *s), "{kind:?} at {pixel:?}: boxes of {c}, {a}, {b}");
+            }
+        }
+    }
+}
+
+#[test]
 fn neighbouring_pixels_are_uncorrelated_unless_meant_to_be() {
     for kind in [
         SamplerKind::Independent,
@@ -351,12 +376,17 @@ fn columns_equal_single_numbers() {
             let later: Vec<PixelSampler<'_>> =
                 (0..).zip(&first).map(|(i, p)| p.at(i / 9 * 7 % 130)).collect();
             for (paths, d) in [&first, &later].into_iter().flat_map(|p| DIMENSIONS.map(|d| (p, d))) {
-                let (mut a, mut x, mut y) = ([0.0; 150], [0.0; 150], [0.0; 150]);
-                s.fill_1d(paths, d, &mut a);
-                s.fill_2d(paths, d, [&mut x, &mut y]);
+                let [mut a, mut x, mut y, mut u, mut v, mut w] = [[0.0; 150]; 6];
+                let mut draws = [
+                    Draw::One(d, &mut a),
+                    Draw::Two(d, [&mut x, &mut y]),
+                    Draw::Three(d, [&mut u, &mut v, &mut w]),
+                ];
+                s.fill(150, |i| paths[i], &mut draws);
                 for (i, p) in paths.iter().enumerate() {
                     let mut p = p.at(p.dimension() + d);
                     assert_eq!([x[i], y[i]], p.clone().get_2d(), "{kind:?} {randomize:?}: pair {i} at {d}");
+                    assert_eq!([u[i], v[i], w[i]], p.clone().get_3d(), "{kind:?} {randomize:?}: {i} at {d}");
                     assert_eq!(a[i], p.get_1d(), "{kind:?} {randomize:?}: {i} at {d}");
                 }
                 s.fill_pixel_2d(paths, [&mut x, &mut y]);

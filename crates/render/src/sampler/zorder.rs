@@ -23,7 +23,7 @@ fn spread(v: u32) -> u32 {
 
 /// Bit-reversed Morton index of the pixel, with the quad's pairing chosen per level from the levels above.
 #[inline(always)]
-fn paired_morton(pixel: [u32; 2], seed: u64) -> u32 {
+pub(crate) fn paired_morton(pixel: [u32; 2], seed: u64) -> u32 {
     const EVEN: u32 = 0x5555_5555;
     let reversed = (spread(pixel[0]) | (spread(pixel[1]) << 1)).reverse_bits();
     // In the reversed word coarse levels are low, so `nested` hashes exactly what lies above a digit;
@@ -39,18 +39,23 @@ fn paired_morton(pixel: [u32; 2], seed: u64) -> u32 {
     upper | (lower << 1)
 }
 
-/// Place of a pixel sample on the curve: the bit-reversed lower 32 bits of the index, and a key of all above.
-///
-/// `log2_spp` bits of the index are the sample's. The upper bits only move a point by less than
-/// 2^-32, but two places that differ there must not share their shuffle, hence the key.
+/// The lower 32 bits of a sample's index on the curve, reversed; `log2_spp` of them are the sample's own.
 #[inline(always)]
-pub(crate) fn place(pixel: [u32; 2], sample: u32, log2_spp: u32, seed: u64) -> (u32, u64) {
-    let morton = paired_morton(pixel, seed);
+pub(crate) fn reversed_index(morton: u32, sample: u32, log2_spp: u32) -> u32 {
     let mask = (1u32 << log2_spp) - 1;
-    let above = u64::from(morton & mask) | (u64::from(sample >> log2_spp) << 32);
+    (morton >> log2_spp) | (sample & mask).reverse_bits()
+}
+
+/// Key of all that lies above: of the pixel, and of the `turn`-th power of two of its samples.
+///
+/// The upper bits only move a point by less than 2^-32, but two places that differ there must not share
+/// their shuffle.
+#[inline(always)]
+pub(crate) fn key(pixel: [u32; 2], morton: u32, turn: u32, log2_spp: u32, seed: u64) -> u64 {
+    let mask = (1u32 << log2_spp) - 1;
+    let above = u64::from(morton & mask) | (u64::from(turn) << 32);
     let outside = u64::from(pixel[0] >> 16) | (u64::from(pixel[1] >> 16) << 16);
-    let reversed = (morton >> log2_spp) | (sample & mask).reverse_bits();
-    (reversed, join(join(seed, above), outside))
+    join(join(seed, above), outside)
 }
 
 #[cfg(test)]
@@ -59,13 +64,14 @@ mod tests {
 
     #[test]
     fn places_are_distinct_and_blocks_stay_together() {
+        let index = |pixel, s| reversed_index(paired_morton(pixel, 99), s, 2).reverse_bits();
         let mut seen: Vec<u32> = Vec::new();
         for y in 0..16 {
             for x in 0..16 {
                 for s in 0..4 {
-                    let r = place([x, y], s, 2, 99).0.reverse_bits();
+                    let r = index([x, y], s);
                     // A quad of pixels with four samples each is one aligned block of sixteen.
-                    assert_eq!(r >> 4, place([x & !1, y & !1], 0, 2, 99).0.reverse_bits() >> 4);
+                    assert_eq!(r >> 4, index([x & !1, y & !1], 0) >> 4);
                     seen.push(r);
                 }
             }

@@ -17,7 +17,7 @@ use crate::integrator::path::{light_dimension, scatter_dimension};
 use crate::integrator::{PathIntegrator, Record};
 use crate::material::{MaterialColumns, Points};
 use crate::roulette::Roulette;
-use crate::sampler::{PixelSampler, Sampler};
+use crate::sampler::{Draw, PixelSampler, Sampler};
 use crate::scatter::{Density, Scatter};
 use crate::scene::{Scene, fibre_offset};
 use crate::texture::TextureContext;
@@ -32,8 +32,7 @@ pub(super) fn key(material: u32, regularized: bool) -> u32 {
 
 /// Vertices of one material.
 #[derive(Default)]
-pub(super) struct Batch<'a> {
-    samplers: Vec<PixelSampler<'a>>,
+pub(super) struct Batch {
     vertices: Box<Vertices>,
     lights: Box<LightSamples>,
     /// Vertices of a light sample come before this one.
@@ -75,21 +74,23 @@ struct Numbers {
     roulette: Column,
 }
 
-impl<'a> Batch<'a> {
+impl Batch {
     /// Takes the vertices of `paths` numbered `which`, all with that key, and draws their uniform numbers.
     pub(super) fn begin<R: Record + Default>(
         &mut self,
         scene: &Scene,
         how: &PathIntegrator,
         sampler: &Sampler,
-        (paths, hits): (&mut Paths<'a, R>, &[Option<Hit>]),
+        (paths, hits): (&mut Paths<'_, R>, &[Option<Hit>]),
         (key, which): (u32, &[u32]),
     ) {
-        let at = |&i: &u32| paths.sampler[i as usize].at(light_dimension(paths.depth[i as usize]));
-        self.samplers.clear();
-        self.samplers.extend(which.iter().map(at));
+        let at = |k: usize| {
+            let i = which[k] as usize;
+            paths.sampler[i].at(light_dimension(paths.depth[i]))
+        };
         let choices = scene.lights().len() > 1 || how.mis.takes_turns();
-        self.columns.numbers.fill(sampler, &self.samplers, choices);
+        let roulette = which.iter().any(|&i| paths.depth[i as usize] > 0);
+        self.columns.numbers.fill(sampler, which.len(), at, (choices, roulette));
         self.vertices.gather(scene, how, paths, hits, (scene.material(key / 2), which));
     }
 
@@ -212,16 +213,30 @@ impl<'a> Batch<'a> {
 }
 
 impl Numbers {
-    /// Those of vertices whose samplers stand where their dimensions begin; those that choose lights only where there are `choices`.
-    fn fill(&mut self, sampler: &Sampler, paths: &[PixelSampler<'_>], choices: bool) {
+    /// Those of `n` vertices, whose dimensions begin where `at` gives; those that choose lights, and those that end paths, only where asked.
+    fn fill<'p>(
+        &mut self,
+        sampler: &Sampler,
+        n: usize,
+        at: impl Fn(usize) -> PixelSampler<'p>,
+        (choices, roulette): (bool, bool),
+    ) {
         let scatter = scatter_dimension(0) - light_dimension(0);
-        if choices {
-            sampler.fill_1d(paths, 0, &mut self.light[..]);
-        }
-        sampler.fill_2d(paths, 1, self.on_light.each_mut().map(|c| &mut c[..]));
-        sampler.fill_1d(paths, scatter, &mut self.lobe[..]);
-        sampler.fill_2d(paths, scatter + 1, self.direction.each_mut().map(|c| &mut c[..]));
-        sampler.fill_1d(paths, scatter + 3, &mut self.roulette[..]);
+        let Numbers { light, on_light: [u, v], lobe, direction, roulette: last } = self;
+        let light = if choices {
+            Draw::Three(0, [&mut light[..], &mut u[..], &mut v[..]])
+        } else {
+            Draw::Two(1, [&mut u[..], &mut v[..]])
+        };
+        let direction = direction.each_mut().map(|c| &mut c[..]);
+        let mut draws = [
+            light,
+            Draw::One(scatter, &mut lobe[..]),
+            Draw::Two(scatter + 1, direction),
+            Draw::One(scatter + 3, &mut last[..]),
+        ];
+        let n_draws = draws.len() - usize::from(!roulette);
+        sampler.fill(n, at, &mut draws[..n_draws]);
     }
 }
 

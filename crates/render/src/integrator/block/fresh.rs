@@ -8,13 +8,13 @@ use super::column::{BATCH, Column, load, padded, store_vector, vector};
 use crate::camera::Camera;
 use crate::integrator::start::{CameraNumbers, CameraSample, FilmPlace, film_point};
 use crate::plan::RenderPlan;
-use crate::sampler::{PixelSampler, Sampler};
+use crate::sampler::{Draw, Pixel, PixelSampler, Sampler};
 use crate::scene::Scene;
 
 /// Camera samples that are drawn together.
 #[derive(Default)]
 pub(super) struct Fresh<'a> {
-    pixels: Vec<([u32; 2], u32)>,
+    places: Vec<FilmPlace>,
     samplers: Vec<PixelSampler<'a>>,
     lambda: Vec<Wavelengths>,
     columns: Box<Columns>,
@@ -43,22 +43,28 @@ impl<'a> Fresh<'a> {
         plan: &RenderPlan,
         samples: &mut impl Iterator<Item = ([u32; 2], u32)>,
     ) -> bool {
-        self.pixels.clear();
+        let columns = &mut *self.columns;
+        self.places.clear();
         self.samplers.clear();
         self.lambda.clear();
-        for (pixel, sample) in samples.take(BATCH) {
+        // Samples come pixel by pixel.
+        let mut last: Option<Pixel<'_>> = None;
+        for (k, (pixel, sample)) in samples.take(BATCH).enumerate() {
             let place = plan.in_full_picture(pixel);
-            for (column, x) in self.columns.place.iter_mut().zip(place) {
-                column[self.pixels.len()] = x as f32;
-            }
-            self.pixels.push((pixel, sample));
-            self.samplers.push(sampler.start(place, sample));
+            let of = match last {
+                Some(last) if last.place() == place => last,
+                _ => sampler.pixel(place),
+            };
+            last = Some(of);
+            columns.place.iter_mut().zip(place).for_each(|(column, x)| column[k] = x as f32);
+            self.places.push(FilmPlace { pixel, weight: 1.0, sample });
+            self.samplers.push(of.start(sample));
         }
-        let n = self.pixels.len();
-        self.columns.fill(sampler, &self.samplers, scene);
-        plan.sensor.wavelengths_many(&self.columns.wavelength[..n], &mut self.lambda);
+        let n = self.places.len();
+        columns.fill(sampler, &self.samplers, scene);
+        plan.sensor.wavelengths_many(&columns.wavelength[..n], &mut self.lambda);
         if !scene.camera.moves() {
-            in_lanes(Rays { n: padded(n), plan, camera: &scene.camera, columns: &mut self.columns });
+            in_lanes(Rays { n: padded(n), plan, camera: &scene.camera, columns });
         }
         n > 0
     }
@@ -69,33 +75,36 @@ impl<'a> Fresh<'a> {
         scene: &Scene,
         plan: &RenderPlan,
     ) -> impl Iterator<Item = (PixelSampler<'a>, CameraSample)> {
-        self.pixels.iter().enumerate().map(move |(k, &(pixel, sample))| {
-            let columns = &self.columns;
-            let start = if scene.camera.moves() {
-                CameraSample::new(scene, plan, pixel, sample, &columns.numbers(k))
-            } else {
+        let columns = &*self.columns;
+        self.places.iter().zip(&self.samplers).zip(&self.lambda).enumerate().map(
+            move |(k, ((place, sampler), lambda))| {
+                if scene.camera.moves() {
+                    let FilmPlace { pixel, sample, .. } = *place;
+                    return (*sampler, CameraSample::new(scene, plan, pixel, sample, &columns.numbers(k)));
+                }
                 let time = if scene.moves { scene.camera.time(columns.time[k]) } else { 0.0 };
                 let ray = Ray { time, ..Ray::new(vector(&columns.o, k), vector(&columns.d, k)) };
-                CameraSample {
-                    place: FilmPlace { pixel, weight: columns.weight[k], sample },
-                    lambda: self.lambda[k],
-                    ray,
-                }
-            };
-            (self.samplers[k], start)
-        })
+                let place = FilmPlace { weight: columns.weight[k], ..*place };
+                (*sampler, CameraSample { place, lambda: *lambda, ray })
+            },
+        )
     }
 }
 
 impl Columns {
+    /// Draws what the scene needs.
     fn fill(&mut self, sampler: &Sampler, paths: &[PixelSampler<'_>], scene: &Scene) {
         let [wavelength, time, lens] = CameraNumbers::DIMENSIONS;
-        sampler.fill_1d(paths, wavelength, &mut self.wavelength[..]);
+        let n = paths.len();
+        let draw = |draw: Draw<'_>| sampler.fill(n, |k| paths[k], &mut [draw]);
+        draw(Draw::One(wavelength, &mut self.wavelength[..]));
         if scene.moves {
-            sampler.fill_1d(paths, time, &mut self.time[..]);
+            draw(Draw::One(time, &mut self.time[..]));
         }
-        sampler.fill_pixel_2d(paths, self.pixel.each_mut().map(|c| &mut c[..]));
-        sampler.fill_2d(paths, lens, self.lens.each_mut().map(|c| &mut c[..]));
+        if scene.camera.has_lens() {
+            draw(Draw::Two(lens, self.lens.each_mut().map(|c| &mut c[..])));
+        }
+        sampler.fill_pixel_2d(paths, self.pixel.each_mut().map(|c| &mut c[..n]));
     }
     fn numbers(&self, k: usize) -> CameraNumbers {
         CameraNumbers {

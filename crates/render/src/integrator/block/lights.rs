@@ -8,7 +8,7 @@ use super::batch::FEW;
 use super::column::{BATCH, Column, Rounded, pad, padded, put_spectrum, put_vector};
 use super::groups::Groups;
 use super::vertices::Vertices;
-use crate::light::{LightSample, LitPoints, NO_LIGHT, Target};
+use crate::light::{Ends, LightSample, LitPoints, NO_LIGHT, Target};
 use crate::scene::Scene;
 
 /// One light sample a vertex, in columns.
@@ -146,11 +146,11 @@ impl LightSamples {
         );
         let (nm, radiance) = (vertices.nm.each_ref().map(|c| &c[..]), &mut self.radiance);
         let radiance = radiance.each_mut().map(|c| &mut c[..]);
-        let p_error = scene.lights().sample_many(scene.geometry(), light, columns, n, nm, radiance);
-        let p_error = p_error.unwrap_or_default().to_array();
+        let ends = scene.lights().sample_many(scene.geometry(), light, columns, n, nm, radiance);
+        let (p_error, endless) = parts(ends);
         self.end.p_error.iter_mut().zip(p_error).for_each(|(column, e)| column[..n].fill(e));
         self.delta[..n].fill(0.0);
-        self.endless[..n].fill(0.0);
+        self.endless[..n].fill(endless);
     }
 
     /// One light at the vertices `chosen`.
@@ -174,8 +174,8 @@ impl LightSamples {
         );
         let (nm, radiance) = (some.nm.each_ref().map(|c| &c[..]), &mut some.radiance);
         let radiance = radiance.each_mut().map(|c| &mut c[..]);
-        let p_error = scene.lights().sample_many(scene.geometry(), light, columns, n, nm, radiance);
-        let p_error = p_error.unwrap_or_default().to_array();
+        let ends = scene.lights().sample_many(scene.geometry(), light, columns, n, nm, radiance);
+        let (p_error, endless) = parts(ends);
         scatter(chosen, &some.on, &mut self.end.p);
         scatter(chosen, &some.on_n, &mut self.end.n);
         scatter(chosen, &some.wi, &mut self.wi);
@@ -183,7 +183,7 @@ impl LightSamples {
         for (k, &pdf) in chosen.iter().map(|k| *k as usize).zip(some.pdf.iter()) {
             self.pdf[k] = pdf;
             self.end.p_error.iter_mut().zip(p_error).for_each(|(column, e)| column[k] = e);
-            (self.delta[k], self.endless[k]) = (0.0, 0.0);
+            (self.delta[k], self.endless[k]) = (0.0, endless);
         }
     }
 
@@ -200,6 +200,14 @@ impl LightSamples {
             Target::Infinity => RoundedPoint::exact(vec3(0.0, 0.0, 0.0)),
         };
         self.end.put(k, &end);
+    }
+}
+
+/// The error of points where shadow rays end, and 1 where they have no end.
+fn parts(ends: Option<Ends>) -> ([f32; 3], f32) {
+    match ends {
+        Some(Ends::OnSurface { p_error }) => (p_error.to_array(), 0.0),
+        Some(Ends::Nowhere) | None => ([0.0; 3], 1.0),
     }
 }
 

@@ -7,6 +7,7 @@
 //! Nothing is allocated for a path: a thread works with one block, whose columns are filled again and again.
 
 mod batch;
+mod colours;
 mod column;
 mod families;
 mod fresh;
@@ -21,6 +22,7 @@ mod vertices;
 use sparrow_geometry::Hit;
 
 use self::batch::Batch;
+use self::colours::Colours;
 use self::column::BATCH;
 pub(crate) use self::column::{Column, pad};
 use self::families::Families;
@@ -44,10 +46,11 @@ pub(crate) struct Block<'a, R> {
     paths: Paths<'a, R>,
     families: Families,
     /// Places of paths that have ended, in order.
+    colours: Colours,
     ended: Vec<u32>,
     hits: Vec<Option<Hit>>,
     groups: Groups,
-    batch: Batch<'a>,
+    batch: Batch,
     shadows: Shadows,
     rays: RayCounts,
 }
@@ -58,6 +61,7 @@ impl<R: Record + Default> Default for Block<'_, R> {
             fresh: Fresh::default(),
             paths: Paths::default(),
             families: Families::default(),
+            colours: Colours::default(),
             ended: Vec::new(),
             hits: Vec::new(),
             groups: Groups::default(),
@@ -193,20 +197,14 @@ impl<'a, R: Record + Default> Block<'a, R> {
 
     /// Hands over the light of paths that have ended, whose places are free.
     fn film<T: TileObserver<Record = R>>(&mut self, tile: &mut Exposed<'_, T>) {
-        let paths = &mut self.paths;
-        for i in 0..paths.len() {
-            if !paths.ended[i] {
-                continue;
-            }
-            self.ended.push(i as u32);
+        let Block { paths, ended, families, colours, .. } = self;
+        ended.extend((0..paths.len() as u32).filter(|&i| paths.ended[i as usize]));
+        colours.measure(&tile.plan.sensor, paths, ended, |i, rgb| {
             if tile.how.splits == 1 {
-                tile.take(paths.place[i], paths.l[i], &paths.lambda[i], &paths.record[i]);
-            } else {
-                let part = tile.part(paths.l[i], &paths.lambda[i]);
-                if let Some((place, parts)) = self.families.take(paths.family[i], paths.way[i], part) {
-                    tile.take_parts(place, parts);
-                }
+                tile.take_rgb(paths.place[i], rgb, &paths.lambda[i], &paths.record[i]);
+            } else if let Some((place, parts)) = families.take(paths.family[i], paths.way[i], rgb) {
+                tile.take_parts(place, parts);
             }
-        }
+        });
     }
 }
