@@ -248,7 +248,7 @@ fn bits(s: &ShapeSample) -> Vec<u32> {
 }
 
 /// Rectangles, with and without normals, and balls, seen from afar, from close by, from their plane and from inside: lanes draw
-/// what is drawn one by one. Other shapes say that they have no lanes.
+/// what is drawn one by one.
 #[test]
 fn lanes_draw_what_is_drawn_one_by_one() {
     const N: usize = 23;
@@ -311,6 +311,10 @@ fn lanes_draw_what_is_drawn_one_by_one() {
         }
         assert!(n_drawn > 30 * N, "shape {i}: {n_drawn}");
     }
+}
+
+#[test]
+fn bent_patches_have_no_lanes() {
     let bent = patch([[-0.5, -0.4, 0.3], [0.5, -0.4, -0.2], [-0.5, 0.4, 0.0], [0.5, 0.6, 0.4]]);
     let g = Geometry::build(vec![bent]);
     let mut none = SampleColumns {
