@@ -105,22 +105,12 @@ impl Scene {
         w: &Wavelengths,
         mut found: impl FnMut(Spectrum<f32>, f32),
     ) -> Spectrum<f32> {
-        let mut weighted = |l: Spectrum<f32>, light: u32, pdf: &dyn Fn(&LitPoint) -> f32| {
-            let weight = match last {
-                None => 1.0,
-                Some(v) if v.pdf > 0.0 => {
-                    mis.bsdf_weight(v.pdf, self.lights.probability(&v.at, light) * pdf(&v.at))
-                }
-                Some(_) => return Spectrum::ZERO,
-            };
-            found(l, weight);
-            l * weight
-        };
         let Some(point) = hit else {
             return self.lights.infinite().iter().fold(Spectrum::ZERO, |sum, &light| {
                 let place = self.lights.place_of(light, ray.d);
                 let l = self.lights.escaped(light, place, w);
-                sum + weighted(l, light, &|at| self.lights.pdf_of_escape(light, at, ray.d, place))
+                let pdf = |at: &LitPoint| self.lights.pdf_of_escape(light, at, ray.d, place);
+                sum + self.weighted((light, l), last, mis, pdf, &mut found)
             });
         };
         let Some(light) = self.lights.of_primitive(point.shape, point.prim) else { return Spectrum::ZERO };
@@ -128,7 +118,28 @@ impl Scene {
         if l.is_black() {
             return l;
         }
-        weighted(l, light, &|at| self.lights.pdf_of_point(&self.geometry, at, point))
+        self.weighted((light, l), last, mis, |at| self.lights.pdf_of_point(&self.geometry, at, point), found)
+    }
+
+    /// What a ray found of one light, which is sampled from a point with density `pdf` where it is chosen.
+    #[inline]
+    pub(crate) fn weighted(
+        &self,
+        (light, l): (u32, Spectrum<f32>),
+        last: Option<&LastVertex>,
+        mis: Mis,
+        pdf: impl FnOnce(&LitPoint) -> f32,
+        mut found: impl FnMut(Spectrum<f32>, f32),
+    ) -> Spectrum<f32> {
+        let weight = match last {
+            None => 1.0,
+            Some(v) if v.pdf > 0.0 => {
+                mis.bsdf_weight(v.pdf, self.lights.probability(&v.at, light) * pdf(&v.at))
+            }
+            Some(_) => return Spectrum::ZERO,
+        };
+        found(l, weight);
+        l * weight
     }
 
     /// The reflection model at a point, turned to the world; none where rays pass unchanged.

@@ -157,7 +157,28 @@ impl Environment {
             drawn.p.iter_mut().zip(p).for_each(|(column, x)| column[k] = x);
             drawn.texel.iter_mut().zip(row).for_each(|(column, x)| column[k] = x);
         }
-        in_lanes(Shine { environment: self, drawn: &drawn, n, wi, nm, radiance });
+        in_lanes(Directions { environment: self, p: &drawn.p, n, wi });
+        in_lanes(Shine { environment: self, texel: &drawn.texel, n, nm, radiance });
+    }
+    /// [`radiance`](Self::radiance) from the directions `d` of `n` rays, and [`pdf`](Self::pdf) of these, to the bit. Not for maps with a
+    /// portal.
+    pub(crate) fn escaped_many(
+        &self,
+        n: usize,
+        d: [&[f32]; 3],
+        nm: [&[f32]; N_LAMBDA],
+        radiance: [&mut [f32]; N_LAMBDA],
+        pdf: &mut [f32],
+    ) {
+        let mut found = Drawn::default();
+        in_lanes(Places { environment: self, d, n, p: &mut found.p });
+        for (k, pdf) in pdf[..n].iter_mut().enumerate() {
+            let place = [found.p[0][k], found.p[1][k]];
+            let row = self.texels[self.texel(place)];
+            found.texel.iter_mut().zip(row).for_each(|(column, x)| column[k] = x);
+            *pdf = self.density.pdf(place) / (4.0 * PI);
+        }
+        in_lanes(Shine { environment: self, texel: &found.texel, n, nm, radiance });
     }
 
     /// Density of a direction for the point `from`, in 1/sr; the map has it at `place`.
@@ -172,8 +193,12 @@ impl Environment {
     /// Where the map has a direction, in the unit square.
     #[inline]
     pub fn place(&self, wi: Vec3<f32>) -> [f32; 2] {
-        let d = vec3(wi.dot(self.axes[0]), wi.dot(self.axes[1]), wi.dot(self.axes[2]));
-        warp::equal_area_sphere_to_square(d)
+        self.place_of(wi)
+    }
+    #[inline(always)]
+    fn place_of<R: Real>(&self, wi: Vec3<R>) -> [R; 2] {
+        let [x, y, z] = self.spread_axes();
+        warp::equal_area_sphere_to_square(vec3(wi.dot(x), wi.dot(y), wi.dot(z)))
     }
     /// Radiance from a place.
     #[inline]
@@ -195,11 +220,13 @@ impl Environment {
     }
     #[inline(always)]
     fn to_world<R: Real>(&self, d: Vec3<R>) -> Vec3<R> {
-        let axis = |i: usize| {
-            let a = self.axes[i];
-            vec3(R::of(a.x.into()), R::of(a.y.into()), R::of(a.z.into()))
-        };
-        axis(0) * d.x + axis(1) * d.y + axis(2) * d.z
+        let [x, y, z] = self.spread_axes();
+        x * d.x + y * d.y + z * d.z
+    }
+    #[inline(always)]
+    fn spread_axes<R: Real>(&self) -> [Vec3<R>; 3] {
+        let spread = |v: Vec3<f32>| vec3(R::of(v.x.into()), R::of(v.y.into()), R::of(v.z.into()));
+        [spread(self.axes[0]), spread(self.axes[1]), spread(self.axes[2])]
     }
 
     /// Mean of the image times the scale: for estimates of power.
@@ -223,35 +250,73 @@ fn coefficients(rgb: [f32; 3], scale: f32, space: ColorSpace) -> [f32; 4] {
     [a, b, c, m * scale]
 }
 
-/// Places and texels that were drawn, in columns.
+/// Places and texels, in columns.
 #[derive(Default)]
 struct Drawn {
     p: [Column; 2],
     texel: [Column; 4],
 }
 
-/// Directions and radiances of what was drawn.
-struct Shine<'a, 'b> {
+/// Directions of places.
+struct Directions<'a, 'b> {
     environment: &'a Environment,
-    drawn: &'a Drawn,
+    p: &'a [Column; 2],
     n: usize,
     wi: &'a mut [&'b mut [f32]; 3],
-    nm: [&'a [f32]; N_LAMBDA],
-    radiance: [&'a mut [f32]; N_LAMBDA],
 }
 
-impl InLanes for Shine<'_, '_> {
+impl InLanes for Directions<'_, '_> {
     type Output = ();
     #[inline(always)]
     fn run<R: Real>(self) {
-        let Shine { environment, drawn, n, wi, nm, radiance } = self;
+        let Directions { environment, p, n, wi } = self;
         for k in (0..n).step_by(R::WIDTH) {
-            let p = [R::load(&drawn.p[0][..], k), R::load(&drawn.p[1][..], k)];
+            let p = [R::load(&p[0][..], k), R::load(&p[1][..], k)];
             let d = environment.to_world(warp::equal_area_square_to_sphere(p));
             d.x.store(wi[0], k);
             d.y.store(wi[1], k);
             d.z.store(wi[2], k);
-            let [a, b, c, scale] = &drawn.texel;
+        }
+    }
+}
+
+/// Places of directions.
+struct Places<'a> {
+    environment: &'a Environment,
+    d: [&'a [f32]; 3],
+    n: usize,
+    p: &'a mut [Column; 2],
+}
+
+impl InLanes for Places<'_> {
+    type Output = ();
+    #[inline(always)]
+    fn run<R: Real>(self) {
+        let Places { environment, d, n, p } = self;
+        for k in (0..n).step_by(R::WIDTH) {
+            let d = vec3(R::load(d[0], k), R::load(d[1], k), R::load(d[2], k));
+            let [s, t] = environment.place_of(d);
+            s.store(&mut p[0][..], k);
+            t.store(&mut p[1][..], k);
+        }
+    }
+}
+
+/// Radiances of texels.
+struct Shine<'a> {
+    environment: &'a Environment,
+    texel: &'a [Column; 4],
+    n: usize,
+    nm: [&'a [f32]; N_LAMBDA],
+    radiance: [&'a mut [f32]; N_LAMBDA],
+}
+
+impl InLanes for Shine<'_> {
+    type Output = ();
+    #[inline(always)]
+    fn run<R: Real>(self) {
+        let Shine { environment, texel: [a, b, c, scale], n, nm, radiance } = self;
+        for k in (0..n).step_by(R::WIDTH) {
             let rgb = [R::load(&a[..], k), R::load(&b[..], k), R::load(&c[..], k)];
             let scale = R::load(&scale[..], k);
             for i in 0..N_LAMBDA {

@@ -177,6 +177,16 @@ impl Lights {
     pub fn infinite(&self) -> &[u32] {
         &self.infinite
     }
+    /// The light around the scene, where that is one environment map without a portal.
+    pub(crate) fn only_environment(&self) -> Option<(u32, &Environment)> {
+        match self.infinite[..] {
+            [light] => match &self.lights[light as usize] {
+                Light::Environment(e) if e.samples_in_lanes() => Some((light, e)),
+                _ => None,
+            },
+            _ => None,
+        }
+    }
     /// Radius of the scene, with which powers of infinite lights were estimated.
     pub fn bounds_radius(&self) -> f32 {
         self.bounds_radius

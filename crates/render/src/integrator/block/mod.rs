@@ -9,6 +9,7 @@
 mod batch;
 mod colours;
 mod column;
+mod escapes;
 mod families;
 mod fresh;
 mod groups;
@@ -25,6 +26,7 @@ use self::batch::Batch;
 use self::colours::Colours;
 use self::column::BATCH;
 pub(crate) use self::column::{Column, pad};
+use self::escapes::Escapes;
 use self::families::Families;
 use self::fresh::Fresh;
 use self::groups::Groups;
@@ -49,6 +51,7 @@ pub(crate) struct Block<'a, R> {
     colours: Colours,
     ended: Vec<u32>,
     hits: Vec<Option<Hit>>,
+    escapes: Escapes,
     groups: Groups,
     batch: Batch,
     shadows: Shadows,
@@ -64,6 +67,7 @@ impl<R: Record + Default> Default for Block<'_, R> {
             colours: Colours::default(),
             ended: Vec::new(),
             hits: Vec::new(),
+            escapes: Escapes::default(),
             groups: Groups::default(),
             batch: Batch::default(),
             shadows: Shadows::default(),
@@ -156,8 +160,13 @@ impl<'a, R: Record + Default> Block<'a, R> {
     /// Light that the rays found.
     fn emitted(&mut self, scene: &Scene, how: &PathIntegrator) {
         let paths = &mut self.paths;
+        let around = scene.lights().only_environment();
         for (i, hit) in self.hits.iter().enumerate() {
             let point = match hit {
+                None if around.is_some() => {
+                    self.escapes.push(i);
+                    continue;
+                }
                 Some(hit) if scene.lights().of_primitive(hit.shape, hit.prim).is_none() => continue,
                 Some(hit) => Some(scene.geometry().surface(&paths.ray[i], hit)),
                 None => None,
@@ -167,6 +176,9 @@ impl<'a, R: Record + Default> Block<'a, R> {
             let record = &mut paths.record[i];
             let found = |light, w| record.found(by, beta * light, w);
             paths.l[i] += beta * scene.emitted(&paths.ray[i], point.as_ref(), last, how.mis, lambda, found);
+        }
+        if let Some(around) = around {
+            self.escapes.find(scene, how, around, paths);
         }
     }
 

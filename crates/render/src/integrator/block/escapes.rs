@@ -1,0 +1,64 @@
+//! Rays that left the scene towards one environment map, in columns: [`Escapes`].
+
+use sparrow_spectra::N_LAMBDA;
+
+use super::column::{BATCH, Column, put_vector, spectrum};
+use super::paths::Paths;
+use crate::integrator::{Finder, PathIntegrator, Record};
+use crate::light::Environment;
+use crate::scene::Scene;
+
+/// Paths whose rays left the scene.
+#[derive(Default)]
+pub(super) struct Escapes {
+    path: Vec<u32>,
+    columns: Box<Columns>,
+}
+
+#[derive(Default)]
+struct Columns {
+    d: [Column; 3],
+    /// Wavelengths in nm.
+    nm: [Column; N_LAMBDA],
+    radiance: [Column; N_LAMBDA],
+    pdf: Column,
+}
+
+impl Escapes {
+    /// The ray of a path left the scene.
+    pub(super) fn push(&mut self, path: usize) {
+        self.path.push(path as u32);
+    }
+
+    /// Adds what these rays found of the `light` all around, and forgets them.
+    pub(super) fn find<R: Record>(
+        &mut self,
+        scene: &Scene,
+        how: &PathIntegrator,
+        (light, environment): (u32, &Environment),
+        paths: &mut Paths<'_, R>,
+    ) {
+        let Columns { d, nm, radiance, pdf } = &mut *self.columns;
+        for which in self.path.chunks(BATCH) {
+            for (k, &i) in which.iter().enumerate() {
+                put_vector(d, k, paths.ray[i as usize].d);
+                nm.iter_mut().zip(paths.lambda[i as usize].lambda).for_each(|(column, nm)| column[k] = nm);
+            }
+            environment.escaped_many(
+                which.len(),
+                d.each_ref().map(|c| &c[..]),
+                nm.each_ref().map(|c| &c[..]),
+                radiance.each_mut().map(|c| &mut c[..]),
+                &mut pdf[..],
+            );
+            for (k, i) in which.iter().map(|i| *i as usize).enumerate() {
+                let (beta, record) = (paths.beta[i], &mut paths.record[i]);
+                let by = paths.depth[i].checked_sub(1).map_or(Finder::Camera, Finder::Bsdf);
+                let found = |light, w| record.found(by, beta * light, w);
+                let (l, last) = (spectrum(radiance, k), paths.last[i].as_ref());
+                paths.l[i] += beta * scene.weighted((light, l), last, how.mis, |_| pdf[k], found);
+            }
+        }
+        self.path.clear();
+    }
+}
