@@ -70,7 +70,7 @@ impl LightSamples {
         let n = vertices.len();
         self.choose(scene, vertices, choice);
         let end = self.light.iter().rposition(|light| *light != NO_LIGHT).map_or(0, |k| k + 1);
-        let (first, lights) = (self.light[0], scene.lights());
+        let (first, lights) = (self.light.first().copied().unwrap_or(NO_LIGHT), scene.lights());
         let in_lanes = |light: u32, n: usize| n >= FEW && lights.samples_in_lanes(scene.geometry(), light);
         if first != NO_LIGHT && self.light.iter().all(|light| *light == first) && in_lanes(first, n) {
             self.at_all(scene, first, vertices, u);
