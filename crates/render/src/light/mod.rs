@@ -179,13 +179,9 @@ impl Lights {
     }
     /// The light around the scene, where that is one environment map without a portal.
     pub(crate) fn only_environment(&self) -> Option<(u32, &Environment)> {
-        match self.infinite[..] {
-            [light] => match &self.lights[light as usize] {
-                Light::Environment(e) if e.samples_in_lanes() => Some((light, e)),
-                _ => None,
-            },
-            _ => None,
-        }
+        let &[light] = &self.infinite[..] else { return None };
+        let Light::Environment(e) = &self.lights[light as usize] else { return None };
+        e.samples_in_lanes().then_some((light, e))
     }
     /// Radius of the scene, with which powers of infinite lights were estimated.
     pub fn bounds_radius(&self) -> f32 {
