@@ -78,8 +78,7 @@ fn bounce(sampler: &Sampler, paths: &[PixelSampler<'_>], d: u32, out: &mut [[f32
         let [choice, u, v, lobe, x, y, roulette] = out else { return };
         let mut draws = [
             Draw::Three(d, [choice, u, v]),
-            Draw::One(d + 3, lobe),
-            Draw::Two(d + 4, [x, y]),
+            Draw::Three(d + 3, [lobe, x, y]),
             Draw::One(d + 6, roulette),
         ];
         if together {

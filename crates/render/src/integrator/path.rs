@@ -15,7 +15,7 @@ use crate::scene::{LastVertex, Scene};
 
 /// Dimensions of the sampler that come before the first bounce: wavelength, time and lens.
 const FIRST_BOUNCE: u32 = 4;
-/// Dimensions of one bounce: light (1 + 2), direction (1 + 2), roulette (1).
+/// Dimensions of one bounce: light (3), direction (3), roulette (1).
 const PER_BOUNCE: u32 = 7;
 
 /// Dimensions of the bounce at a vertex: the choice of a light and a point of it, drawn as one point.
@@ -23,7 +23,7 @@ pub(super) fn light_dimension(depth: u32) -> u32 {
     FIRST_BOUNCE + depth * PER_BOUNCE
 }
 
-/// Dimensions of the way on from a vertex: lobe, direction, roulette.
+/// Dimensions of the way on from a vertex: lobe and direction, drawn as one point, and roulette.
 pub(super) fn scatter_dimension(depth: u32) -> u32 {
     light_dimension(depth) + 3
 }
@@ -132,8 +132,8 @@ impl PathIntegrator {
 
             // Next vertex.
             sampler.set_dimension(scatter_dimension(depth));
-            let (lobe, dir) = (sampler.get_1d(), sampler.get_2d());
-            let Some(s) = bsdf.sample(wo, lobe, dir) else { break };
+            let [lobe, u, v] = sampler.get_3d();
+            let Some(s) = bsdf.sample(wo, lobe, [u, v]) else { break };
             (beta, eta_scale) = carried((beta, eta_scale), s.weight, s.eta, n);
             match s.density {
                 Density::SolidAngle(pdf) => {

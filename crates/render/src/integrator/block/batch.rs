@@ -228,11 +228,10 @@ impl Numbers {
         } else {
             Draw::Two(1, [&mut u[..], &mut v[..]])
         };
-        let direction = direction.each_mut().map(|c| &mut c[..]);
+        let [x, y] = direction;
         let mut draws = [
             light,
-            Draw::One(scatter, &mut lobe[..]),
-            Draw::Two(scatter + 1, direction),
+            Draw::Three(scatter, [&mut lobe[..], &mut x[..], &mut y[..]]),
             Draw::One(scatter + 3, &mut last[..]),
         ];
         let n_draws = draws.len() - usize::from(!roulette);
