@@ -76,11 +76,8 @@ fn main() {
 fn bounce(sampler: &Sampler, paths: &[PixelSampler<'_>], d: u32, out: &mut [[f32; 256]], together: bool) {
     for paths in paths.chunks(256) {
         let [choice, u, v, lobe, x, y, roulette] = out else { return };
-        let mut draws = [
-            Draw::Three(d, [choice, u, v]),
-            Draw::Three(d + 3, [lobe, x, y]),
-            Draw::One(d + 6, roulette),
-        ];
+        let mut draws =
+            [Draw::Three(d, [choice, u, v]), Draw::Three(d + 3, [lobe, x, y]), Draw::One(d + 6, roulette)];
         if together {
             sampler.fill(paths.len(), |i| paths[i], &mut draws);
         } else {

@@ -3,6 +3,8 @@
 //! Short loops over arrays of whole numbers, one operation each. [`in_lanes`] compiles them for the vector unit, and the
 //! compiler turns each into lanes of eight.
 
+use core::ops::Range;
+
 use sparrow_math::{InLanes, Real, in_lanes};
 
 use super::config::Randomize;
@@ -13,6 +15,9 @@ use super::sobol::{self, SobolTables};
 
 /// Pixel samples that are worked on together.
 const CHUNK: usize = 64;
+
+/// Loops run over a multiple of this many, whole registers.
+const STEP: usize = 16;
 
 type Words = [u32; CHUNK];
 
@@ -36,24 +41,13 @@ impl Sampler {
         let mut first = 0;
         while first < n {
             chunk.gather((first..n).map(&at));
-            let at = |k: usize| at(first + k);
             let places = first..first + chunk.n;
-            for draw in &mut *draws {
-                match draw {
-                    Draw::One(offset, x) => {
-                        chunk.fill(*offset, [&mut x[places.clone()]], |k| [at(k).after(*offset).get_1d()])
-                    }
-                    Draw::Two(offset, out) => {
-                        let out = out.each_mut().map(|c| &mut c[places.clone()]);
-                        chunk.fill(*offset, out, |k| at(k).after(*offset).get_2d());
-                    }
-                    Draw::Three(offset, out) => {
-                        let out = out.each_mut().map(|c| &mut c[places.clone()]);
-                        chunk.fill(*offset, out, |k| at(k).after(*offset).get_3d());
-                    }
-                }
+            if draws.iter().all(|draw| chunk.has_columns(draw)) {
+                in_lanes(Columns { chunk: &chunk, first, draws });
+            } else {
+                draws.iter_mut().for_each(|draw| draw.one_by_one(places.clone(), &at));
             }
-            first += chunk.n;
+            first = places.end;
         }
     }
 
@@ -86,6 +80,28 @@ impl Sampler {
     }
 }
 
+impl Draw<'_> {
+    /// How many dimensions ahead it begins, and how many it takes.
+    fn dimensions(&self) -> (u32, u32) {
+        match self {
+            Draw::One(offset, _) => (*offset, 1),
+            Draw::Two(offset, _) => (*offset, 2),
+            Draw::Three(offset, _) => (*offset, 3),
+        }
+    }
+
+    /// Draws at `places` from the pixel samples that `at` gives.
+    fn one_by_one<'p>(&mut self, places: Range<usize>, at: &impl Fn(usize) -> PixelSampler<'p>) {
+        for k in places {
+            match self {
+                Draw::One(offset, x) => x[k] = at(k).after(*offset).get_1d(),
+                Draw::Two(offset, [x, y]) => [x[k], y[k]] = at(k).after(*offset).get_2d(),
+                Draw::Three(offset, [x, y, z]) => [x[k], y[k], z[k]] = at(k).after(*offset).get_3d(),
+            }
+        }
+    }
+}
+
 /// At most [`CHUNK`] pixel samples; where dimensions have tables of their own, all at the same dimension.
 struct Chunk<'a> {
     sampler: &'a Sampler,
@@ -94,12 +110,13 @@ struct Chunk<'a> {
     dimension: u32,
     /// What the key of a dimension is made of, but for how far it lies ahead.
     keys: [u64; CHUNK],
-    index: [u64; CHUNK],
+    /// Lower and upper halves of the indices.
+    index: [Words; 2],
 }
 
 impl<'a> Chunk<'a> {
     fn new(sampler: &'a Sampler) -> Chunk<'a> {
-        Chunk { sampler, n: 0, dimension: 0, keys: [0; CHUNK], index: [0; CHUNK] }
+        Chunk { sampler, n: 0, dimension: 0, keys: [0; CHUNK], index: [[0; CHUNK]; 2] }
     }
 
     /// Takes the first of `paths`, as many as fit and belong together.
@@ -110,31 +127,20 @@ impl<'a> Chunk<'a> {
             let alike = paths.clone().take(CHUNK).take_while(|path| path.dimension() == self.dimension);
             self.n = alike.count();
         }
-        let places = self.keys[..self.n].iter_mut().zip(&mut self.index[..self.n]);
-        for ((key, index), path) in places.zip(paths) {
-            (*key, *index) = (path.key_here(), path.index);
+        let [low, high] = &mut self.index;
+        for (((key, low), high), path) in self.keys[..self.n].iter_mut().zip(low).zip(high).zip(paths) {
+            (*key, *low, *high) = (path.key_here(), path.index as u32, (path.index >> 32) as u32);
         }
     }
 
-    /// Fills columns, as long as the chunk, in lanes; where there is no such form with what `one` gives for each.
-    fn fill<const N: usize>(&self, offset: u32, mut out: [&mut [f32]; N], one: impl Fn(usize) -> [f32; N]) {
-        if self.has_columns(offset, N as u32) {
-            return in_lanes(Columns { chunk: self, offset, out });
-        }
-        for k in 0..self.n {
-            for (column, x) in out.iter_mut().zip(one(k)) {
-                column[k] = x;
-            }
-        }
-    }
-
-    /// There is a form in lanes for `n` dimensions.
-    fn has_columns(&self, offset: u32, n: u32) -> bool {
+    /// There is a form in lanes.
+    fn has_columns(&self, draw: &Draw<'_>) -> bool {
         let fast = self.sampler.config.randomize == Randomize::FastOwen;
         match self.sampler.plan {
             Plan::Independent => true,
             Plan::Padded | Plan::ZOrder { .. } => fast,
             Plan::Sobol(_) => {
+                let (offset, n) = draw.dimensions();
                 let first = self.dimension.wrapping_add(offset);
                 fast && first.saturating_add(n) <= sobol::N_DIMENSIONS - PLANE
             }
@@ -143,89 +149,115 @@ impl<'a> Chunk<'a> {
     }
 }
 
-/// Coordinates of the points of a chunk, into their places.
-struct Columns<'a, const N: usize> {
-    chunk: &'a Chunk<'a>,
-    offset: u32,
-    out: [&'a mut [f32]; N],
+/// Draws from a chunk, into the places from `first` on.
+struct Columns<'a, 'b, 'c> {
+    chunk: &'a Chunk<'b>,
+    first: usize,
+    draws: &'a mut [Draw<'c>],
 }
 
-impl<const N: usize> InLanes for Columns<'_, N> {
+impl InLanes for Columns<'_, '_, '_> {
     type Output = ();
     #[inline(always)]
     fn run<R: Real>(self) {
-        let Columns { chunk, offset, mut out } = self;
-        if let Plan::Sobol(tables) = &chunk.sampler.plan {
-            return (offset..).zip(out).for_each(|(d, out)| store(&chunk.sobol(tables, d), out));
-        }
-        // The first of three stands before the pair.
-        let (single, pair) = out.split_at_mut(N.saturating_sub(2));
-        let of_pair = offset.wrapping_add(single.len() as u32);
-        let (mut low, mut high) = ([0; CHUNK], [0; CHUNK]);
-        if matches!(chunk.sampler.plan, Plan::Independent) {
-            for out in single {
-                split(&chunk.keys(offset), &mut low, &mut high);
-                store(&low, out);
+        let Columns { chunk, first, draws } = self;
+        let places = first..first + chunk.n;
+        for draw in draws {
+            match draw {
+                Draw::One(offset, x) => chunk.fill(*offset, [&mut x[places.clone()]]),
+                Draw::Two(offset, out) => {
+                    chunk.fill(*offset, out.each_mut().map(|x| &mut x[places.clone()]));
+                }
+                Draw::Three(offset, out) => {
+                    chunk.fill(*offset, out.each_mut().map(|x| &mut x[places.clone()]));
+                }
             }
-            split(&chunk.keys(of_pair), &mut low, &mut high);
-            return pair.iter_mut().zip([&low, &high]).for_each(|(out, v)| store(v, out));
-        }
-        let mut keys = chunk.keys(of_pair);
-        let (mut seeds, mut first) = ([0; CHUNK], [0; CHUNK]);
-        split(&keys, &mut seeds, &mut first);
-        times_golden(&mut keys);
-        split(&keys, &mut low, &mut high);
-        let index = chunk.shuffled(&seeds, &low);
-        store(&scrambled(&index, &first), pair[0]);
-        if let Some(out) = pair.get_mut(1) {
-            store(&scrambled(&index.map(second_dimension), &high), out);
-        }
-        for out in single {
-            times_golden(&mut keys);
-            split(&keys, &mut low, &mut high);
-            store(&scrambled(&index.map(third_dimension), &high), out);
         }
     }
 }
 
 impl Chunk<'_> {
-    /// [`PixelSampler::key_of`] of each.
+    /// Coordinates of the points, into their places.
     #[inline(always)]
-    fn keys(&self, offset: u32) -> [u64; CHUNK] {
-        let (mut keys, step) = (self.keys, key_step(offset));
-        for k in &mut keys {
-            *k = mix(k.wrapping_add(step));
+    fn fill<const N: usize>(&self, offset: u32, mut out: [&mut [f32]; N]) {
+        if let Plan::Sobol(tables) = &self.sampler.plan {
+            let first = self.dimension + offset + PLANE;
+            return (first..).zip(out).for_each(|(d, out)| self.sobol(tables, d, out));
         }
-        keys
-    }
-
-    /// [`shuffled`](super::scramble::shuffled) indices.
-    #[inline(always)]
-    fn shuffled(&self, seeds: &Words, blocks: &Words) -> Words {
-        let mut index = [0; CHUNK];
-        for (i, reversed) in index.iter_mut().zip(&self.index) {
-            *i = *reversed as u32;
+        let m = self.padded();
+        // The first of three stands before the pair.
+        let (single, pair) = out.split_at_mut(N.saturating_sub(2));
+        let of_pair = offset.wrapping_add(single.len() as u32);
+        let (mut keys, mut low, mut high) = ([0; CHUNK], [0; CHUNK], [0; CHUNK]);
+        let (keys, low, high) = (&mut keys[..m], &mut low[..m], &mut high[..m]);
+        if matches!(self.sampler.plan, Plan::Independent) {
+            for out in single {
+                self.keys(offset, keys);
+                split(keys, low, high);
+                store(low, out);
+            }
+            self.keys(of_pair, keys);
+            split(keys, low, high);
+            return pair.iter_mut().zip([low, high]).for_each(|(out, v)| store(v, out));
         }
-        for (i, s) in index.iter_mut().zip(seeds) {
-            *i = nested(*i, *s).reverse_bits();
-        }
-        for (i, b) in index.iter_mut().zip(blocks) {
+        let (mut seeds, mut index, mut v) = ([0; CHUNK], [0; CHUNK], [0; CHUNK]);
+        let (seeds, index, v) = (&mut seeds[..m], &mut index[..m], &mut v[..m]);
+        self.keys(of_pair, keys);
+        split(keys, low, seeds);
+        index.copy_from_slice(&self.index[0][..m]);
+        scramble(index, low);
+        times_golden(keys);
+        split(keys, low, high);
+        for (i, b) in index.iter_mut().zip(&*low) {
             *i = self.sampler.blocks.permute(*i, *b);
         }
-        index
+        v.copy_from_slice(index);
+        scramble(v, seeds);
+        store(v, pair[0]);
+        if let Some(out) = pair.get_mut(1) {
+            for (v, i) in v.iter_mut().zip(&*index) {
+                *v = second_dimension(*i);
+            }
+            scramble(v, high);
+            store(v, out);
+        }
+        for out in single {
+            times_golden(keys);
+            split(keys, low, high);
+            for (v, i) in v.iter_mut().zip(&*index) {
+                *v = third_dimension(*i);
+            }
+            scramble(v, high);
+            store(v, out);
+        }
     }
 
-    /// A coordinate of the global sequence, scrambled.
+    /// Pixel samples that loops run over.
     #[inline(always)]
-    fn sobol(&self, tables: &SobolTables, offset: u32) -> Words {
-        let d = self.dimension + offset + PLANE;
-        let used = self.index.iter().fold(0, |all, i| all | i);
-        let (mut low, mut high) = ([0; CHUNK], [0; CHUNK]);
-        split(&self.index, &mut low, &mut high);
+    fn padded(&self) -> usize {
+        self.n.next_multiple_of(STEP).min(CHUNK)
+    }
+
+    /// [`PixelSampler::key_of`] of each.
+    #[inline(always)]
+    fn keys(&self, offset: u32, out: &mut [u64]) {
+        let step = key_step(offset);
+        for (out, k) in out.iter_mut().zip(&self.keys) {
+            *out = mix(k.wrapping_add(step));
+        }
+    }
+
+    /// Coordinate `d` of the global sequence, scrambled.
+    #[inline(always)]
+    fn sobol(&self, tables: &SobolTables, d: u32, out: &mut [f32]) {
+        let m = self.padded();
+        let [low, high] = self.index.each_ref().map(|words| &words[..m]);
+        let used = low.iter().zip(high).fold(0, |all, (l, h)| all | u64::from(*l) | (u64::from(*h) << 32));
         let mut v = [0u32; CHUNK];
+        let v = &mut v[..m];
         for j in (0..sobol::N_COLUMNS.min(64 - used.leading_zeros() as usize)).step_by(4) {
             let columns = tables.columns(d, j);
-            let bits = if j < 32 { &low } else { &high };
+            let bits = if j < 32 { low } else { high };
             for (v, bits) in v.iter_mut().zip(bits) {
                 let bits = (bits >> (j & 31)) as i32;
                 for (k, column) in columns.iter().enumerate() {
@@ -234,22 +266,24 @@ impl Chunk<'_> {
                 }
             }
         }
-        for v in &mut v {
+        for v in &mut *v {
             *v = v.reverse_bits();
         }
         let mut seeds = [sobol_seed(self.sampler.seed, d, 0); CHUNK];
         if used >> sobol::N_COLUMNS != 0 {
-            for (s, index) in seeds.iter_mut().zip(&self.index) {
-                *s = sobol_seed(self.sampler.seed, d, sobol::turn(*index));
+            for ((s, l), h) in seeds.iter_mut().zip(low).zip(high) {
+                let index = u64::from(*l) | (u64::from(*h) << 32);
+                *s = sobol_seed(self.sampler.seed, d, sobol::turn(index));
             }
         }
-        scrambled(&v, &seeds)
+        scramble(v, &seeds[..m]);
+        store(v, out);
     }
 }
 
 /// Lower and upper halves.
 #[inline(always)]
-fn split(words: &[u64; CHUNK], low: &mut Words, high: &mut Words) {
+fn split(words: &[u64], low: &mut [u32], high: &mut [u32]) {
     for ((w, l), h) in words.iter().zip(low).zip(high) {
         (*l, *h) = (*w as u32, (*w >> 32) as u32);
     }
@@ -257,7 +291,7 @@ fn split(words: &[u64; CHUNK], low: &mut Words, high: &mut Words) {
 
 /// Keys of the next coordinate.
 #[inline(always)]
-fn times_golden(keys: &mut [u64; CHUNK]) {
+fn times_golden(keys: &mut [u64]) {
     for k in keys {
         *k = k.wrapping_mul(GOLDEN);
     }
@@ -265,17 +299,15 @@ fn times_golden(keys: &mut [u64; CHUNK]) {
 
 /// Scrambles numbers whose lowest bit leads, each by its seed; the result leads with its highest.
 #[inline(always)]
-fn scrambled(index: &Words, seeds: &Words) -> Words {
-    let mut v = *index;
+fn scramble(v: &mut [u32], seeds: &[u32]) {
     for (v, s) in v.iter_mut().zip(seeds) {
         *v = nested(*v, *s).reverse_bits();
     }
-    v
 }
 
 /// Binary fractions as numbers, as many as there are places.
 #[inline(always)]
-fn store(v: &Words, out: &mut [f32]) {
+fn store(v: &[u32], out: &mut [f32]) {
     for (x, v) in out.iter_mut().zip(v) {
         *x = to_unit(*v);
     }
