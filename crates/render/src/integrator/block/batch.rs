@@ -1,6 +1,6 @@
 //! Vertices of one material, worked off together: [`Batch`].
 
-use sparrow_geometry::Hit;
+use sparrow_geometry::{Hit, Ray};
 use sparrow_math::in_lanes;
 use sparrow_models::ModelKind;
 use sparrow_models::batch::{DirColumns, EvalColumns, SampleColumns, f_cos_pdf, sample};
@@ -9,7 +9,7 @@ use sparrow_spectra::{N_LAMBDA, Wavelengths};
 use super::column::{Column, pad, padded, put_spectrum, put_vector, spectrum, vector};
 use super::lanes::{ToLocal, ToWorld};
 use super::lights::LightSamples;
-use super::onward::{Decide, Directions, Next, Onward};
+use super::onward::{Decide, Directions, Leave, Next, Onward};
 use super::paths::Paths;
 use super::shadow::Shadows;
 use super::vertices::Vertices;
@@ -95,18 +95,18 @@ impl Batch {
     }
 
     /// Samples a light at each vertex.
-    pub(super) fn sample_lights<R>(&mut self, scene: &Scene, how: &PathIntegrator, paths: &mut Paths<'_, R>) {
+    pub(super) fn sample_lights<R>(&mut self, scene: &Scene, how: &PathIntegrator, paths: &Paths<'_, R>) {
         let (vertices, numbers, n) = (&*self.vertices, &mut self.columns.numbers, self.vertices.len());
         self.lights.clear(n);
         let looks = how.mis.turn(0.0);
-        for (k, &path) in vertices.path.iter().enumerate() {
+        for (k, &path) in vertices.paths().iter().enumerate() {
             let i = path as usize;
             let mut turn = looks;
             if how.mis.takes_turns() {
                 turn = how.mis.turn(numbers.light[k]);
                 numbers.light[k] = turn.u;
             }
-            paths.looks[i] = turn.bsdf;
+            self.lights.looks[k] = f32::from(u8::from(turn.bsdf));
             // The light of a first vertex belongs to the first way on.
             self.lights.asked[k] = turn.light && (paths.depth[i] > 0 || paths.way[i] == 0);
         }
@@ -129,10 +129,10 @@ impl Batch {
         self.contexts.clear();
         self.kind = (n >= FEW && !regularized).then_some(material.kind);
         if self.kind.is_none() || material.textured {
-            for (k, &path) in vertices.path.iter().enumerate() {
+            for (k, &path) in vertices.paths().iter().enumerate() {
                 let i = path as usize;
                 let Some(hit) = &hits[i] else { continue };
-                let point = vertices.point(k, hit, paths.ray[i].time);
+                let point = vertices.point(k, hit);
                 if self.kind.is_some() {
                     self.lambda.push(paths.lambda[i]);
                     self.contexts.push(scene.texture_context_of(material, &point));
@@ -191,22 +191,32 @@ impl Batch {
             None => columns.sample_alone(&self.models, vertices),
         }
         let Columns { drawn, next, numbers, .. } = columns;
-        let n = padded(n);
-        in_lanes(Onward { n, vertices, drawn, next });
+        in_lanes(Onward { n: padded(n), vertices, drawn, next });
         if let Some(roulette) = roulette {
-            for (k, &path) in vertices.path.iter().enumerate() {
+            for (k, &path) in vertices.paths().iter().enumerate() {
                 let (p, beta) = (vector(&vertices.at.p, k), spectrum(&next.beta, k));
                 let here = roulette(paths.place[path as usize].pixel);
                 next.survival[k] = here.at_least(next.survival[k], p, beta);
             }
         }
-        in_lanes(Decide { n, depth: &vertices.depth, u: &numbers.roulette, next });
-        for (k, &path) in vertices.path.iter().enumerate() {
+        in_lanes(Decide { n: padded(n), depth: &vertices.depth, u: &numbers.roulette, next });
+        in_lanes(Leave {
+            vertices,
+            looks: &self.lights.looks,
+            drawn,
+            next,
+            rays: Ray::rows_mut(&mut paths.ray),
+            carried: &mut paths.carried,
+            behind: &mut paths.behind,
+        });
+        for (k, &path) in vertices.paths().iter().enumerate() {
             let i = path as usize;
-            if next.goes_on[k] > 0.0 {
-                paths.go_on(i, vertices, drawn, next, k);
-            } else {
-                paths.ended[i] = true;
+            paths.ended[i] = next.goes_on[k] <= 0.0;
+            paths.depth[i] += 1;
+            paths.n_smooth[i] += u32::from(drawn.delta[k] <= 0.0);
+            paths.eta_scale[i] = next.eta_scale[k];
+            if !paths.ended[i] {
+                paths.record[i].goes_on(vector(&vertices.at.p, k), spectrum(&next.beta, k));
             }
         }
     }

@@ -16,6 +16,8 @@ use crate::scene::Scene;
 pub(super) struct LightSamples {
     /// A light is to be sampled at the vertex.
     pub(super) asked: Vec<bool>,
+    /// 1 where the direction that the BSDF gives looks for lights, else 0.
+    pub(super) looks: Column,
     /// The light that was chosen, or [`NO_LIGHT`].
     light: Vec<u32>,
     /// Of that choice.
@@ -128,7 +130,7 @@ impl LightSamples {
     ) {
         for k in chosen.iter().map(|k| *k as usize) {
             let (at, u) = (vertices.lit_point(k), [u[0][k], u[1][k]]);
-            let w = &lambda[vertices.path[k] as usize];
+            let w = &lambda[vertices.paths()[k] as usize];
             if let Some(s) = scene.lights().sample(scene.geometry(), light, &at, u, w) {
                 self.put(k, &s);
             }

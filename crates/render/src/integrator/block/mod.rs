@@ -50,6 +50,8 @@ pub(crate) struct Block<'a, R> {
     /// Places of paths that have ended, in order.
     colours: Colours,
     ended: Vec<u32>,
+    /// Places of paths that begin, and their families.
+    begun: [Vec<u32>; 2],
     hits: Vec<Option<Hit>>,
     escapes: Escapes,
     groups: Groups,
@@ -66,6 +68,7 @@ impl<R: Record + Default> Default for Block<'_, R> {
             families: Families::default(),
             colours: Colours::default(),
             ended: Vec::new(),
+            begun: Default::default(),
             hits: Vec::new(),
             escapes: Escapes::default(),
             groups: Groups::default(),
@@ -95,7 +98,7 @@ impl<'a, R: Record + Default> Block<'a, R> {
             for i in 0..self.groups.len() {
                 let (key, which) = self.groups.batch(i);
                 self.batch.begin(scene, &how, sampler, (&mut self.paths, &self.hits), (key, which));
-                self.batch.sample_lights(scene, &how, &mut self.paths);
+                self.batch.sample_lights(scene, &how, &self.paths);
                 self.batch.bind(scene, (&mut self.paths, &self.hits), key);
                 self.batch.direct(&how, &self.paths, &mut self.shadows);
                 self.batch.scatter(&mut self.paths, tile.learned.map(|_| |pixel| tile.roulette(pixel)));
@@ -116,16 +119,20 @@ impl<'a, R: Record + Default> Block<'a, R> {
         sampler: &'a Sampler,
         samples: &mut impl Iterator<Item = ([u32; 2], u32)>,
     ) -> bool {
-        let Block { fresh, paths, families, ended, rays, .. } = self;
+        let Block { fresh, paths, families, ended, begun: [places, of], rays, .. } = self;
         let mut room = N_PATHS.saturating_sub(paths.len() - ended.len()) / how.splits as usize;
         while room > 0 && fresh.draw(scene, sampler, plan, &mut samples.take(room)) {
-            fresh.iter(scene, plan).for_each(|(sampler, start)| {
-                let family = if how.splits > 1 { families.push(start.place) } else { 0 };
-                let place = ended.pop().map_or(paths.len(), |i| i as usize);
-                paths.put(place, sampler, start, family);
-                rays.camera += 1;
-                room -= 1;
-            });
+            let n = fresh.len();
+            places.clear();
+            places.extend(ended.drain(ended.len().saturating_sub(n)..).rev());
+            places.extend((paths.len() as u32..).take(n - places.len()));
+            of.clear();
+            if how.splits > 1 {
+                of.extend((0..n).map(|k| families.push(fresh.place(k))));
+            }
+            paths.begin(fresh, places, of);
+            rays.camera += n as u64;
+            room -= n;
         }
         // From the end, so that what takes the place of a path is under way.
         ended.drain(..).rev().for_each(|i| paths.remove(i as usize));
@@ -171,11 +178,12 @@ impl<'a, R: Record + Default> Block<'a, R> {
                 Some(hit) => Some(scene.geometry().surface(&paths.ray[i], hit)),
                 None => None,
             };
-            let (beta, last, lambda) = (paths.beta[i], paths.last[i].as_ref(), &paths.lambda[i]);
+            let (beta, last, lambda) = (paths.beta(i), paths.last(i), &paths.lambda[i]);
             let by = paths.depth[i].checked_sub(1).map_or(Finder::Camera, Finder::Bsdf);
             let record = &mut paths.record[i];
             let found = |light, w| record.found(by, beta * light, w);
-            paths.l[i] += beta * scene.emitted(&paths.ray[i], point.as_ref(), last, how.mis, lambda, found);
+            paths.l[i] +=
+                beta * scene.emitted(&paths.ray[i], point.as_ref(), last.as_ref(), how.mis, lambda, found);
         }
         if let Some(around) = around {
             self.escapes.find(scene, how, around, paths);
