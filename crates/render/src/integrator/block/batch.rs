@@ -10,7 +10,7 @@ use super::column::{Column, pad, padded, put_spectrum, put_vector, spectrum, vec
 use super::lanes::{ToLocal, ToWorld};
 use super::lights::LightSamples;
 use super::onward::{Decide, Directions, Leave, Next, Onward};
-use super::paths::Paths;
+use super::paths::{Paths, Steps};
 use super::shadow::Shadows;
 use super::vertices::Vertices;
 use crate::integrator::path::{light_dimension, scatter_dimension};
@@ -86,10 +86,10 @@ impl Batch {
     ) {
         let at = |k: usize| {
             let i = which[k] as usize;
-            paths.sampler[i].at(light_dimension(paths.depth[i]))
+            paths.sampler[i].at(light_dimension(paths.steps[i].depth))
         };
         let choices = scene.lights().len() > 1 || how.mis.takes_turns();
-        let roulette = which.iter().any(|&i| paths.depth[i as usize] > 0);
+        let roulette = which.iter().any(|&i| paths.steps[i as usize].depth > 0);
         self.columns.numbers.fill(sampler, which.len(), at, (choices, roulette));
         self.vertices.gather(scene, how, paths, hits, (scene.material(key / 2), which));
     }
@@ -108,7 +108,7 @@ impl Batch {
             }
             self.lights.looks[k] = f32::from(u8::from(turn.bsdf));
             // The light of a first vertex belongs to the first way on.
-            self.lights.asked[k] = turn.light && (paths.depth[i] > 0 || paths.way[i] == 0);
+            self.lights.asked[k] = turn.light && (paths.steps[i].depth > 0 || paths.way[i] == 0);
         }
         numbers.on_light.iter_mut().for_each(|c| pad(c, n));
         pad(&mut numbers.light, n);
@@ -179,10 +179,10 @@ impl Batch {
         shadows.push(how, &self.vertices, &self.lights, (&columns.f_cos, &columns.pdf), (n, paths));
     }
 
-    /// The next direction of each path; the path ends where there is none, or where roulette says so.
+    /// The next direction of each path; the path is among those `ended` where there is none, or where roulette says so.
     pub(super) fn scatter<'b, R: Record + Default>(
         &mut self,
-        paths: &mut Paths<'_, R>,
+        (paths, ended): (&mut Paths<'_, R>, &mut Vec<u32>),
         roulette: Option<impl Fn([u32; 2]) -> Roulette<'b>>,
     ) {
         let (columns, vertices, n) = (&mut *self.columns, &*self.vertices, self.vertices.len());
@@ -211,13 +211,15 @@ impl Batch {
         });
         for (k, &path) in vertices.paths().iter().enumerate() {
             let i = path as usize;
-            paths.ended[i] = next.goes_on[k] <= 0.0;
-            paths.depth[i] += 1;
-            paths.n_smooth[i] += u32::from(drawn.delta[k] <= 0.0);
-            paths.eta_scale[i] = next.eta_scale[k];
-            if !paths.ended[i] {
-                paths.record[i].goes_on(vector(&vertices.at.p, k), spectrum(&next.beta, k));
+            if next.goes_on[k] <= 0.0 {
+                ended.push(path);
+                continue;
             }
+            let Steps { depth, n_smooth, .. } = paths.steps[i];
+            let smooth = u32::from(drawn.delta[k] <= 0.0);
+            let eta_scale = next.eta_scale[k];
+            paths.steps[i] = Steps { depth: depth + 1, n_smooth: n_smooth + smooth, eta_scale };
+            paths.record[i].goes_on(vector(&vertices.at.p, k), spectrum(&next.beta, k));
         }
     }
 }

@@ -30,7 +30,7 @@ use self::escapes::Escapes;
 use self::families::Families;
 use self::fresh::Fresh;
 use self::groups::Groups;
-use self::paths::Paths;
+use self::paths::{Paths, Steps};
 use self::shadow::Shadows;
 use super::start::FilmPlace;
 use super::{Exposed, Finder, PathIntegrator, RayCounts, Record};
@@ -47,8 +47,8 @@ pub(crate) struct Block<'a, R> {
     fresh: Fresh<'a>,
     paths: Paths<'a, R>,
     families: Families,
-    /// Places of paths that have ended, in order.
     colours: Colours,
+    /// Places of paths that have ended.
     ended: Vec<u32>,
     /// Places of paths that begin, and their families.
     begun: [Vec<u32>; 2],
@@ -101,7 +101,10 @@ impl<'a, R: Record + Default> Block<'a, R> {
                 self.batch.sample_lights(scene, &how, &self.paths);
                 self.batch.bind(scene, (&mut self.paths, &self.hits), key);
                 self.batch.direct(&how, &self.paths, &mut self.shadows);
-                self.batch.scatter(&mut self.paths, tile.learned.map(|_| |pixel| tile.roulette(pixel)));
+                self.batch.scatter(
+                    (&mut self.paths, &mut self.ended),
+                    tile.learned.map(|_| |pixel| tile.roulette(pixel)),
+                );
             }
             self.rays.shadow += self.shadows.trace(scene, &mut self.paths);
             self.film(tile);
@@ -135,6 +138,7 @@ impl<'a, R: Record + Default> Block<'a, R> {
             room -= n;
         }
         // From the end, so that what takes the place of a path is under way.
+        ended.sort_unstable();
         ended.drain(..).rev().for_each(|i| paths.remove(i as usize));
         paths.len() > 0
     }
@@ -147,7 +151,7 @@ impl<'a, R: Record + Default> Block<'a, R> {
         let paths = &mut self.paths;
         for i in 0..paths.len() {
             let there = self.hits[i].filter(|hit| scene.material_of(hit.shape).is_some());
-            let Some(hit) = there.filter(|_| paths.depth[i] == 0) else { continue };
+            let Some(hit) = there.filter(|_| paths.steps[i].depth == 0) else { continue };
             let FilmPlace { pixel, sample, .. } = paths.place[i];
             for way in 1..how.splits {
                 let sample = plan.sample_of_way(sample, way);
@@ -179,7 +183,7 @@ impl<'a, R: Record + Default> Block<'a, R> {
                 None => None,
             };
             let (beta, last, lambda) = (paths.beta(i), paths.last(i), &paths.lambda[i]);
-            let by = paths.depth[i].checked_sub(1).map_or(Finder::Camera, Finder::Bsdf);
+            let by = paths.steps[i].depth.checked_sub(1).map_or(Finder::Camera, Finder::Bsdf);
             let record = &mut paths.record[i];
             let found = |light, w| record.found(by, beta * light, w);
             paths.l[i] +=
@@ -195,10 +199,10 @@ impl<'a, R: Record + Default> Block<'a, R> {
         let paths = &mut self.paths;
         self.groups.clear(2 * scene.n_materials());
         for (i, hit) in self.hits.iter().enumerate() {
-            let (depth, n_smooth) = (paths.depth[i], paths.n_smooth[i]);
+            let Steps { depth, n_smooth, .. } = paths.steps[i];
             let deep = depth == how.max_depth || n_smooth == how.max_smooth;
             let Some(hit) = hit.as_ref().filter(|_| !deep) else {
-                paths.ended[i] = true;
+                self.ended.push(i as u32);
                 continue;
             };
             match scene.material_of(hit.shape) {
@@ -218,7 +222,6 @@ impl<'a, R: Record + Default> Block<'a, R> {
     /// Hands over the light of paths that have ended, whose places are free.
     fn film<T: TileObserver<Record = R>>(&mut self, tile: &mut Exposed<'_, T>) {
         let Block { paths, ended, families, colours, .. } = self;
-        ended.extend((0..paths.len() as u32).filter(|&i| paths.ended[i as usize]));
         colours.measure(&tile.plan.sensor, paths, ended, |i, rgb| {
             if tile.how.splits == 1 {
                 tile.take_rgb(paths.place[i], rgb, &paths.lambda[i], &paths.record[i]);

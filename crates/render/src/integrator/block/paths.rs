@@ -14,6 +14,22 @@ use crate::scene::LastVertex;
 /// What stands for the density of a direction that a delta lobe gave, or the camera.
 pub(super) const NO_DENSITY: f64 = -1.0;
 
+/// What a path has been through.
+#[derive(Clone, Copy)]
+pub(super) struct Steps {
+    /// Scattering events.
+    pub(super) depth: u32,
+    /// Those by lobes that are no delta.
+    pub(super) n_smooth: u32,
+    /// Undoes the squeeze of refraction.
+    pub(super) eta_scale: f32,
+}
+
+impl Steps {
+    /// None yet.
+    const NONE: Steps = Steps { depth: 0, n_smooth: 0, eta_scale: 1.0 };
+}
+
 /// Paths under way, a column for each thing that is known of them. What lanes of paths need together stands in rows of eight
 /// numbers, which they read and write at once.
 pub(super) struct Paths<'a, R> {
@@ -26,14 +42,11 @@ pub(super) struct Paths<'a, R> {
     pub(super) carried: Vec<[f32; 8]>,
     /// The last vertex: its place, the density of the direction taken or [`NO_DENSITY`], and its shading normal.
     pub(super) behind: Vec<[f32; 8]>,
-    pub(super) eta_scale: Vec<f32>,
-    pub(super) depth: Vec<u32>,
+    pub(super) steps: Vec<Steps>,
     /// Which way on from the first vertex it takes.
     pub(super) way: Vec<u32>,
     /// Of the camera sample that it belongs to, where there are several ways.
     pub(super) family: Vec<u32>,
-    pub(super) n_smooth: Vec<u32>,
-    pub(super) ended: Vec<bool>,
     pub(super) record: Vec<R>,
 }
 
@@ -47,12 +60,9 @@ impl<R> Default for Paths<'_, R> {
             l: Vec::new(),
             carried: Vec::new(),
             behind: Vec::new(),
-            eta_scale: Vec::new(),
-            depth: Vec::new(),
+            steps: Vec::new(),
             way: Vec::new(),
             family: Vec::new(),
-            n_smooth: Vec::new(),
-            ended: Vec::new(),
             record: Vec::new(),
         }
     }
@@ -99,12 +109,9 @@ impl<'a, R: Record + Default> Paths<'a, R> {
         });
         put(&mut self.l, places, |_| Spectrum::ZERO);
         put(&mut self.behind, places, |_| BEGIN);
-        put(&mut self.eta_scale, places, |_| 1.0);
-        put(&mut self.depth, places, |_| 0);
+        put(&mut self.steps, places, |_| Steps::NONE);
         put(&mut self.way, places, |_| 0);
         put(&mut self.family, places, |k| families.get(k).copied().unwrap_or(0));
-        put(&mut self.n_smooth, places, |_| 0);
-        put(&mut self.ended, places, |_| false);
         put(&mut self.record, places, |_| R::default());
     }
 
@@ -121,12 +128,9 @@ impl<'a, R: Record + Default> Paths<'a, R> {
         self.l.resize(n, Spectrum::ZERO);
         self.carried.resize(n, [0.0; 8]);
         self.behind.resize(n, BEGIN);
-        self.eta_scale.resize(n, 1.0);
-        self.depth.resize(n, 0);
+        self.steps.resize(n, Steps::NONE);
         self.way.resize(n, 0);
         self.family.resize(n, 0);
-        self.n_smooth.resize(n, 0);
-        self.ended.resize(n, false);
         self.record.resize_with(n, R::default);
     }
 
@@ -139,12 +143,9 @@ impl<'a, R: Record + Default> Paths<'a, R> {
         self.l.push(Spectrum::ZERO);
         self.carried.push(self.carried[i]);
         self.behind.push(self.behind[i]);
-        self.eta_scale.push(self.eta_scale[i]);
-        self.depth.push(self.depth[i]);
+        self.steps.push(self.steps[i]);
         self.way.push(way);
         self.family.push(self.family[i]);
-        self.n_smooth.push(self.n_smooth[i]);
-        self.ended.push(false);
         self.record.push(R::default());
     }
 
@@ -157,12 +158,9 @@ impl<'a, R: Record + Default> Paths<'a, R> {
         self.l.swap_remove(i);
         self.carried.swap_remove(i);
         self.behind.swap_remove(i);
-        self.eta_scale.swap_remove(i);
-        self.depth.swap_remove(i);
+        self.steps.swap_remove(i);
         self.way.swap_remove(i);
         self.family.swap_remove(i);
-        self.n_smooth.swap_remove(i);
-        self.ended.swap_remove(i);
         self.record.swap_remove(i);
     }
 }

@@ -26,6 +26,8 @@ struct Pending {
 #[derive(Default)]
 pub(super) struct Shadows {
     columns: Box<Columns>,
+    /// How many there are; there is room for more.
+    n: usize,
     rays: Vec<Ray>,
     pending: Vec<Pending>,
     /// What arrives along each, with its MIS weight and before.
@@ -61,28 +63,29 @@ impl Shadows {
     ) {
         let out = &mut *self.columns;
         in_lanes(Arrive { n: padded(n), mis: how.mis, vertices, lights, f_cos, pdf, out });
-        let room = self.rays.len() + n;
-        let mut end = self.rays.len();
-        self.pending.resize(room, Pending::default());
+        let room = self.n + n;
+        if room > self.rays.len() {
+            self.rays.resize(room, Ray::new(vec3(0.0, 0.0, 0.0), vec3(0.0, 0.0, 0.0)));
+            self.arrives.resize(room, [0.0; 8]);
+            self.pending.resize(room, Pending::default());
+        }
+        let first = self.n;
         self.places.clear();
         for (k, &path) in vertices.paths()[..n].iter().enumerate() {
             // What is not lit is overwritten by the next.
-            self.pending[end] = Pending { path, depth: paths.depth[path as usize], weight: out.weight[k] };
-            self.places.push(end as u32);
-            end += usize::from(out.lit[k] > 0.0);
+            self.places.push((self.n - first) as u32);
+            self.pending[self.n] =
+                Pending { path, depth: paths.steps[path as usize].depth, weight: out.weight[k] };
+            self.n += usize::from(out.lit[k] > 0.0);
         }
-        self.rays.resize(room, Ray::new(vec3(0.0, 0.0, 0.0), vec3(0.0, 0.0, 0.0)));
-        self.arrives.resize(room, [0.0; 8]);
-        let (rays, arrives) = (Ray::rows_mut(&mut self.rays), &mut self.arrives);
+        let (rays, arrives) = (Ray::rows_mut(&mut self.rays[first..]), &mut self.arrives[first..]);
         in_lanes(Ask { columns: out, time: &vertices.time, places: &self.places, rays, arrives });
-        self.rays.truncate(end);
-        self.arrives.truncate(end);
-        self.pending.truncate(end);
     }
 
     /// Traces them, and adds the light that arrives.
     pub(super) fn trace<R: Record>(&mut self, scene: &Scene, paths: &mut Paths<'_, R>) -> u64 {
-        scene.occluded_many(&self.rays, &mut self.occluded);
+        let n = core::mem::take(&mut self.n);
+        scene.occluded_many(&self.rays[..n], &mut self.occluded);
         let arrived =
             self.pending.iter().zip(&self.arrives).zip(&self.occluded).filter(|(_, occluded)| !**occluded);
         for ((p, [a, b, c, d, unweighted @ ..]), _) in arrived {
@@ -90,11 +93,7 @@ impl Shadows {
             paths.record[i].found(Finder::Light(p.depth), Spectrum(*unweighted), p.weight);
             paths.l[i] += Spectrum([*a, *b, *c, *d]);
         }
-        let n = self.rays.len() as u64;
-        self.rays.clear();
-        self.arrives.clear();
-        self.pending.clear();
-        n
+        n as u64
     }
 }
 

@@ -6,7 +6,7 @@ use sparrow_models::ModelKind;
 use sparrow_spectra::{N_LAMBDA, Spectrum};
 
 use super::column::{Column, Rounded, pad, padded, store_spectrum, store_vector, vector};
-use super::paths::Paths;
+use super::paths::{Paths, Steps};
 use crate::integrator::{PathIntegrator, Record};
 use crate::light::LitPoint;
 use crate::material::Material;
@@ -72,10 +72,10 @@ impl Vertices {
         }
         in_lanes(Gather { rays: Ray::rows(&paths.ray), carried: &paths.carried, vertices: self });
         for (k, &path) in which.iter().enumerate() {
-            let i = path as usize;
-            self.eta_scale[k] = paths.eta_scale[i];
-            self.depth[k] = paths.depth[i] as f32;
-            self.ways[k] = how.ways_on(paths.depth[i]);
+            let Steps { depth, eta_scale, .. } = paths.steps[path as usize];
+            self.eta_scale[k] = eta_scale;
+            self.depth[k] = depth as f32;
+            self.ways[k] = how.ways_on(depth);
         }
         let fibre = matches!(material.kind, ModelKind::Fibre(_));
         let parts = SurfaceParts { uv: material.textured || fibre, derivatives: material.textured };
