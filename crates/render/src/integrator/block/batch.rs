@@ -98,17 +98,22 @@ impl Batch {
     pub(super) fn sample_lights<R>(&mut self, scene: &Scene, how: &PathIntegrator, paths: &Paths<'_, R>) {
         let (vertices, numbers, n) = (&*self.vertices, &mut self.columns.numbers, self.vertices.len());
         self.lights.clear(n);
-        let looks = how.mis.turn(0.0);
-        for (k, &path) in vertices.paths().iter().enumerate() {
-            let i = path as usize;
-            let mut turn = looks;
-            if how.mis.takes_turns() {
-                turn = how.mis.turn(numbers.light[k]);
-                numbers.light[k] = turn.u;
+        if how.mis.takes_turns() {
+            for (k, u) in numbers.light[..n].iter_mut().enumerate() {
+                let turn = how.mis.turn(*u);
+                *u = turn.u;
+                (self.lights.asked[k], self.lights.looks[k]) = (turn.light, f32::from(u8::from(turn.bsdf)));
             }
-            self.lights.looks[k] = f32::from(u8::from(turn.bsdf));
+        } else {
+            let turn = how.mis.turn(0.0);
+            self.lights.asked.fill(turn.light);
+            self.lights.looks[..n].fill(f32::from(u8::from(turn.bsdf)));
+        }
+        if how.splits > 1 {
             // The light of a first vertex belongs to the first way on.
-            self.lights.asked[k] = turn.light && (paths.steps[i].depth > 0 || paths.way[i] == 0);
+            let path = |k: usize| vertices.paths()[k] as usize;
+            let own = |k: usize| paths.steps[path(k)].depth > 0 || paths.way[path(k)] == 0;
+            self.lights.asked.iter_mut().enumerate().for_each(|(k, asked)| *asked &= own(k));
         }
         numbers.on_light.iter_mut().for_each(|c| pad(c, n));
         pad(&mut numbers.light, n);

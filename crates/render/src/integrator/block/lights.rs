@@ -69,11 +69,16 @@ impl LightSamples {
         vertices: &Vertices,
         (choice, u): (&Column, &[Column; 2]),
     ) -> usize {
-        let n = vertices.len();
+        let (n, lights) = (vertices.len(), scene.lights());
+        let in_lanes = |light: u32, n: usize| n >= FEW && lights.samples_in_lanes(scene.geometry(), light);
+        if let Some(only) = lights.only().filter(|&light| self.asked.iter().all(|a| *a) && in_lanes(light, n))
+        {
+            self.at_all(scene, only, vertices, u);
+            return n;
+        }
         self.choose(scene, vertices, choice);
         let end = self.light.iter().rposition(|light| *light != NO_LIGHT).map_or(0, |k| k + 1);
-        let (first, lights) = (self.light.first().copied().unwrap_or(NO_LIGHT), scene.lights());
-        let in_lanes = |light: u32, n: usize| n >= FEW && lights.samples_in_lanes(scene.geometry(), light);
+        let first = self.light.first().copied().unwrap_or(NO_LIGHT);
         if first != NO_LIGHT && self.light.iter().all(|light| *light == first) && in_lanes(first, n) {
             self.at_all(scene, first, vertices, u);
         } else {
