@@ -28,6 +28,20 @@ impl Ray {
         let Ray { o, d, t_max, time } = self;
         [o.x, o.y, o.z, d.x, d.y, d.z, t_max, time]
     }
+    /// The numbers of rays, each in the order of its fields.
+    #[inline(always)]
+    #[allow(unsafe_code, reason = "rays in lanes are read and written as rows")]
+    pub fn rows(rays: &[Ray]) -> &[[f32; 8]] {
+        // SAFETY: a ray is laid out as in C and is eight `f32`, so as many rows lie there.
+        unsafe { core::slice::from_raw_parts(rays.as_ptr().cast(), rays.len()) }
+    }
+    /// [`rows`](Self::rows), to be written.
+    #[inline(always)]
+    #[allow(unsafe_code, reason = "rays in lanes are read and written as rows")]
+    pub fn rows_mut(rays: &mut [Ray]) -> &mut [[f32; 8]] {
+        // SAFETY: as above; any eight numbers are a ray.
+        unsafe { core::slice::from_raw_parts_mut(rays.as_mut_ptr().cast(), rays.len()) }
+    }
     /// The point at parameter `t`.
     #[inline]
     pub fn at(&self, t: f32) -> Vec3<f32> {
@@ -53,4 +67,26 @@ pub struct Hit {
     pub v: f32,
     /// The instance it belongs to; none for shapes of the world.
     pub instance: Option<u32>,
+}
+
+#[cfg(test)]
+#[expect(clippy::float_cmp, reason = "the numbers are copied")]
+mod tests {
+    use sparrow_math::vec3;
+
+    use super::*;
+
+    #[test]
+    fn rows_are_the_fields() {
+        const _: () = assert!(size_of::<Ray>() == size_of::<[f32; 8]>());
+        let ray = |x: f32| Ray {
+            t_max: x + 6.0,
+            time: x + 7.0,
+            ..Ray::new(vec3(x, x + 1.0, x + 2.0), vec3(x + 3.0, x + 4.0, x + 5.0))
+        };
+        let mut rays = [ray(0.0), ray(10.0)];
+        assert_eq!(Ray::rows(&rays), [[0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0], ray(10.0).to_array()]);
+        Ray::rows_mut(&mut rays)[1][4] = 99.0;
+        assert_eq!(rays[1].d.y, 99.0);
+    }
 }

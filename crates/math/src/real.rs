@@ -77,6 +77,36 @@ pub trait Real:
     ///
     /// Panics where the table is empty.
     fn look_up(self, table: &[f32]) -> Self;
+    /// Reads eight numbers for every lane, which stand side by side in the row of `table` that its place of `at` names.
+    ///
+    /// Panics where `at` has fewer than `WIDTH` places, or one is not in the table.
+    #[inline(always)]
+    fn gather_rows(table: &[[f32; 8]], at: &[u32]) -> [Self; 8] {
+        let mut columns = [[0.0; MAX_WIDTH]; 8];
+        for (lane, &i) in at[..Self::WIDTH].iter().enumerate() {
+            for (column, x) in columns.iter_mut().zip(table[i as usize]) {
+                column[lane] = x;
+            }
+        }
+        let [a, b, c, d, e, f, g, h] = &columns;
+        let [a, b, c, d] = [Self::load(a, 0), Self::load(b, 0), Self::load(c, 0), Self::load(d, 0)];
+        [a, b, c, d, Self::load(e, 0), Self::load(f, 0), Self::load(g, 0), Self::load(h, 0)]
+    }
+    /// Writes what [`gather_rows`](Self::gather_rows) reads, for as many lanes as `at` has places, one lane after the other.
+    ///
+    /// Panics where a place is not in the table.
+    #[inline(always)]
+    fn scatter_rows(columns: [Self; 8], table: &mut [[f32; 8]], at: &[u32]) {
+        let mut numbers = [[0.0; MAX_WIDTH]; 8];
+        for (x, s) in columns.into_iter().zip(&mut numbers) {
+            x.store(s, 0);
+        }
+        for (lane, &i) in at.iter().take(Self::WIDTH).enumerate() {
+            for (x, column) in table[i as usize].iter_mut().zip(&numbers) {
+                *x = column[lane];
+            }
+        }
+    }
     /// The number in every lane, for what is computed one by one; lanes beyond `WIDTH` are zero.
     #[inline(always)]
     fn to_doubles(self) -> [f64; MAX_WIDTH] {
@@ -238,6 +268,16 @@ impl Real for f32 {
     #[inline(always)]
     fn store(self, s: &mut [f32], i: usize) {
         s[i] = self;
+    }
+    #[inline(always)]
+    fn gather_rows(table: &[[f32; 8]], at: &[u32]) -> [f32; 8] {
+        table[at[0] as usize]
+    }
+    #[inline(always)]
+    fn scatter_rows(columns: [f32; 8], table: &mut [[f32; 8]], at: &[u32]) {
+        if let Some(&i) = at.first() {
+            table[i as usize] = columns;
+        }
     }
     #[inline(always)]
     fn look_up(self, table: &[f32]) -> f32 {

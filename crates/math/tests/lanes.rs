@@ -130,3 +130,41 @@ fn masks_tell_any_from_all() {
     assert_eq!(Masks.run::<Lanes<8>>(), [true; 6]);
     assert_eq!(Masks.run::<f32>(), [true; 6]);
 }
+
+/// Rows to lanes and from lanes to other rows: the sum of the columns, then the table written.
+struct Rows<'a> {
+    table: &'a [[f32; 8]],
+    from: &'a [u32],
+    to: &'a [u32],
+}
+impl InLanes for Rows<'_> {
+    type Output = Vec<[f32; 8]>;
+    #[inline(always)]
+    fn run<R: Real>(self) -> Vec<[f32; 8]> {
+        let mut out = vec![[0.0; 8]; self.table.len()];
+        for k in (0..self.from.len()).step_by(R::WIDTH) {
+            let [a, b, c, d, e, f, g, h] = R::gather_rows(self.table, &self.from[k..]);
+            let end = self.to.len().min(k + R::WIDTH);
+            R::scatter_rows([h, g, f, e, d, c, b, a + b], &mut out, self.to.get(k..end).unwrap_or(&[]));
+        }
+        out
+    }
+}
+
+#[test]
+fn rows_go_to_their_places() {
+    let table: Vec<[f32; 8]> = (0..40).map(|i| core::array::from_fn(|j| (10 * i + j) as f32)).collect();
+    let from: Vec<u32> = (0..32).map(|k| k * 7 % 40).collect();
+    // Fewer places than lanes at the end, and one twice: the later lane stays.
+    let to: Vec<u32> = (0..27).map(|k| if k == 26 { 3 } else { k }).collect();
+    let mut expected = vec![[0.0; 8]; 40];
+    for (&from, &to) in from.iter().zip(&to) {
+        let [a, b, c, d, e, f, g, h] = table[from as usize];
+        expected[to as usize] = [h, g, f, e, d, c, b, a + b];
+    }
+    let rows = || Rows { table: &table, from: &from, to: &to };
+    assert_eq!(in_lanes(rows()), expected);
+    assert_eq!(only_in_lanes(rows()).unwrap_or_else(|rows| in_lanes(rows)), expected);
+    assert_eq!(rows().run::<Lanes<8>>(), expected);
+    assert_eq!(rows().run::<f32>(), expected);
+}

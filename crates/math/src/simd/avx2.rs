@@ -8,9 +8,10 @@ use core::arch::x86_64::{
     __m256, _CMP_LE_OQ, _CMP_LT_OQ, _mm256_add_epi32, _mm256_add_ps, _mm256_and_ps, _mm256_andnot_ps,
     _mm256_blendv_ps, _mm256_castps_si256, _mm256_castsi256_ps, _mm256_cmp_ps, _mm256_cvtepi32_ps,
     _mm256_cvttps_epi32, _mm256_div_ps, _mm256_i32gather_ps, _mm256_loadu_ps, _mm256_max_ps,
-    _mm256_min_epu32, _mm256_min_ps, _mm256_movemask_ps, _mm256_mul_ps, _mm256_or_ps, _mm256_set1_epi32,
-    _mm256_set1_ps, _mm256_setzero_ps, _mm256_slli_epi32, _mm256_sqrt_ps, _mm256_srli_epi32,
-    _mm256_storeu_ps, _mm256_sub_epi32, _mm256_sub_ps, _mm256_xor_ps,
+    _mm256_min_epu32, _mm256_min_ps, _mm256_movemask_ps, _mm256_mul_ps, _mm256_or_ps, _mm256_permute2f128_ps,
+    _mm256_set1_epi32, _mm256_set1_ps, _mm256_setzero_ps, _mm256_shuffle_ps, _mm256_slli_epi32,
+    _mm256_sqrt_ps, _mm256_srli_epi32, _mm256_storeu_ps, _mm256_sub_epi32, _mm256_sub_ps, _mm256_unpackhi_ps,
+    _mm256_unpacklo_ps, _mm256_xor_ps,
 };
 use core::fmt::{Debug, Formatter};
 use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
@@ -54,6 +55,42 @@ impl F32x8 {
     #[inline(always)]
     fn splat(x: f32) -> F32x8 {
         F32x8(avx!(_mm256_set1_ps(x)))
+    }
+    /// A row of a table.
+    #[inline(always)]
+    fn row(table: &[[f32; 8]], i: u32) -> F32x8 {
+        F32x8::load(&table[i as usize], 0)
+    }
+    /// Rows to columns, and back.
+    #[inline(always)]
+    fn transposed([a, b, c, d, e, f, g, h]: [F32x8; 8]) -> [F32x8; 8] {
+        let ([ae, bf], [cg, dh]) =
+            ([F32x8::halves(a, e), F32x8::halves(b, f)], [F32x8::halves(c, g), F32x8::halves(d, h)]);
+        let [k0, k1, k2, k3] = F32x8::quarters([ae[0], bf[0], cg[0], dh[0]]);
+        let [k4, k5, k6, k7] = F32x8::quarters([ae[1], bf[1], cg[1], dh[1]]);
+        [k0, k1, k2, k3, k4, k5, k6, k7]
+    }
+    /// The lower halves of both, then the upper ones.
+    #[inline(always)]
+    fn halves(a: F32x8, b: F32x8) -> [F32x8; 2] {
+        avx!([
+            F32x8(_mm256_permute2f128_ps::<0x20>(a.0, b.0)),
+            F32x8(_mm256_permute2f128_ps::<0x31>(a.0, b.0)),
+        ])
+    }
+    /// Transposes both halves, which are 4 x 4 each.
+    #[inline(always)]
+    fn quarters([a, b, c, d]: [F32x8; 4]) -> [F32x8; 4] {
+        avx!({
+            let (ab, cd) = (_mm256_unpacklo_ps(a.0, b.0), _mm256_unpacklo_ps(c.0, d.0));
+            let (ab2, cd2) = (_mm256_unpackhi_ps(a.0, b.0), _mm256_unpackhi_ps(c.0, d.0));
+            [
+                F32x8(_mm256_shuffle_ps::<0x44>(ab, cd)),
+                F32x8(_mm256_shuffle_ps::<0xee>(ab, cd)),
+                F32x8(_mm256_shuffle_ps::<0x44>(ab2, cd2)),
+                F32x8(_mm256_shuffle_ps::<0xee>(ab2, cd2)),
+            ]
+        })
     }
     #[inline(always)]
     fn to_array(self) -> [f32; 8] {
@@ -153,6 +190,39 @@ impl Real for F32x8 {
         let s = &mut s[i..i + 8];
         // SAFETY: `s` holds eight numbers.
         avx!(_mm256_storeu_ps(s.as_mut_ptr(), self.0));
+    }
+    #[inline(always)]
+    fn gather_rows(table: &[[f32; 8]], at: &[u32]) -> [F32x8; 8] {
+        let at = &at[..8];
+        F32x8::transposed([
+            F32x8::row(table, at[0]),
+            F32x8::row(table, at[1]),
+            F32x8::row(table, at[2]),
+            F32x8::row(table, at[3]),
+            F32x8::row(table, at[4]),
+            F32x8::row(table, at[5]),
+            F32x8::row(table, at[6]),
+            F32x8::row(table, at[7]),
+        ])
+    }
+    #[inline(always)]
+    fn scatter_rows(columns: [F32x8; 8], table: &mut [[f32; 8]], at: &[u32]) {
+        let [a, b, c, d, e, f, g, h] = F32x8::transposed(columns);
+        let Some(at) = at.get(..8) else {
+            let rows = [a, b, c, d, e, f, g];
+            for (row, &i) in rows.into_iter().zip(at) {
+                row.store(&mut table[i as usize], 0);
+            }
+            return;
+        };
+        a.store(&mut table[at[0] as usize], 0);
+        b.store(&mut table[at[1] as usize], 0);
+        c.store(&mut table[at[2] as usize], 0);
+        d.store(&mut table[at[3] as usize], 0);
+        e.store(&mut table[at[4] as usize], 0);
+        f.store(&mut table[at[5] as usize], 0);
+        g.store(&mut table[at[6] as usize], 0);
+        h.store(&mut table[at[7] as usize], 0);
     }
     #[inline(always)]
     fn look_up(self, table: &[f32]) -> F32x8 {

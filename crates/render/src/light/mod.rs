@@ -204,6 +204,10 @@ impl Lights {
     pub(crate) fn choose_many(&self, points: &LitPoints<'_>, put: impl FnMut(usize, Option<(u32, f32)>)) {
         self.selection.choose_many(points, put);
     }
+    /// The light that [`choose`](Self::choose) picks everywhere, where there is no other.
+    pub(crate) fn only(&self) -> Option<u32> {
+        self.selection.only()
+    }
     /// The probability with which [`choose`](Self::choose) picks that light.
     #[inline]
     pub fn probability(&self, at: &LitPoint, light: u32) -> f32 {

@@ -78,15 +78,18 @@ impl LightSelection {
             {
                 few.choose_many(points, put);
             }
-            LightSelection::ByPlace(ByPlace { bounded: Bounded::One(light), infinite })
-                if infinite.is_empty() =>
-            {
-                (0..points.n_points).for_each(|k| put(k, Some((*light, 1.0))));
-            }
             LightSelection::ByPlace(_) | LightSelection::Fixed(_) | LightSelection::Empty => {
                 (0..points.n_points).for_each(|k| put(k, self.choose(&points.get(k), points.u[k])));
             }
         }
+    }
+
+    /// The light that is chosen everywhere, where there is no other.
+    pub(crate) fn only(&self) -> Option<u32> {
+        let LightSelection::ByPlace(ByPlace { bounded: Bounded::One(light), infinite }) = self else {
+            return None;
+        };
+        infinite.is_empty().then_some(*light)
     }
 
     /// Probability of a light.

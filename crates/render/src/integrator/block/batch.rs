@@ -1,6 +1,6 @@
 //! Vertices of one material, worked off together: [`Batch`].
 
-use sparrow_geometry::Hit;
+use sparrow_geometry::{Hit, Ray};
 use sparrow_math::in_lanes;
 use sparrow_models::ModelKind;
 use sparrow_models::batch::{DirColumns, EvalColumns, SampleColumns, f_cos_pdf, sample};
@@ -9,8 +9,8 @@ use sparrow_spectra::{N_LAMBDA, Wavelengths};
 use super::column::{Column, pad, padded, put_spectrum, put_vector, spectrum, vector};
 use super::lanes::{ToLocal, ToWorld};
 use super::lights::LightSamples;
-use super::onward::{Decide, Directions, Next, Onward};
-use super::paths::Paths;
+use super::onward::{Decide, Directions, Leave, Next, Onward};
+use super::paths::{Paths, Steps};
 use super::shadow::Shadows;
 use super::vertices::Vertices;
 use crate::integrator::path::{light_dimension, scatter_dimension};
@@ -86,29 +86,34 @@ impl Batch {
     ) {
         let at = |k: usize| {
             let i = which[k] as usize;
-            paths.sampler[i].at(light_dimension(paths.depth[i]))
+            paths.sampler[i].at(light_dimension(paths.steps[i].depth))
         };
         let choices = scene.lights().len() > 1 || how.mis.takes_turns();
-        let roulette = which.iter().any(|&i| paths.depth[i as usize] > 0);
+        let roulette = which.iter().any(|&i| paths.steps[i as usize].depth > 0);
         self.columns.numbers.fill(sampler, which.len(), at, (choices, roulette));
         self.vertices.gather(scene, how, paths, hits, (scene.material(key / 2), which));
     }
 
     /// Samples a light at each vertex.
-    pub(super) fn sample_lights<R>(&mut self, scene: &Scene, how: &PathIntegrator, paths: &mut Paths<'_, R>) {
+    pub(super) fn sample_lights<R>(&mut self, scene: &Scene, how: &PathIntegrator, paths: &Paths<'_, R>) {
         let (vertices, numbers, n) = (&*self.vertices, &mut self.columns.numbers, self.vertices.len());
         self.lights.clear(n);
-        let looks = how.mis.turn(0.0);
-        for (k, &path) in vertices.path.iter().enumerate() {
-            let i = path as usize;
-            let mut turn = looks;
-            if how.mis.takes_turns() {
-                turn = how.mis.turn(numbers.light[k]);
-                numbers.light[k] = turn.u;
+        if how.mis.takes_turns() {
+            for (k, u) in numbers.light[..n].iter_mut().enumerate() {
+                let turn = how.mis.turn(*u);
+                *u = turn.u;
+                (self.lights.asked[k], self.lights.looks[k]) = (turn.light, f32::from(u8::from(turn.bsdf)));
             }
-            paths.looks[i] = turn.bsdf;
+        } else {
+            let turn = how.mis.turn(0.0);
+            self.lights.asked.fill(turn.light);
+            self.lights.looks[..n].fill(f32::from(u8::from(turn.bsdf)));
+        }
+        if how.splits > 1 {
             // The light of a first vertex belongs to the first way on.
-            self.lights.asked[k] = turn.light && (paths.depth[i] > 0 || paths.way[i] == 0);
+            let path = |k: usize| vertices.paths()[k] as usize;
+            let own = |k: usize| paths.steps[path(k)].depth > 0 || paths.way[path(k)] == 0;
+            self.lights.asked.iter_mut().enumerate().for_each(|(k, asked)| *asked &= own(k));
         }
         numbers.on_light.iter_mut().for_each(|c| pad(c, n));
         pad(&mut numbers.light, n);
@@ -129,10 +134,10 @@ impl Batch {
         self.contexts.clear();
         self.kind = (n >= FEW && !regularized).then_some(material.kind);
         if self.kind.is_none() || material.textured {
-            for (k, &path) in vertices.path.iter().enumerate() {
+            for (k, &path) in vertices.paths().iter().enumerate() {
                 let i = path as usize;
                 let Some(hit) = &hits[i] else { continue };
-                let point = vertices.point(k, hit, paths.ray[i].time);
+                let point = vertices.point(k, hit);
                 if self.kind.is_some() {
                     self.lambda.push(paths.lambda[i]);
                     self.contexts.push(scene.texture_context_of(material, &point));
@@ -179,10 +184,10 @@ impl Batch {
         shadows.push(how, &self.vertices, &self.lights, (&columns.f_cos, &columns.pdf), (n, paths));
     }
 
-    /// The next direction of each path; the path ends where there is none, or where roulette says so.
+    /// The next direction of each path; the path is among those `ended` where there is none, or where roulette says so.
     pub(super) fn scatter<'b, R: Record + Default>(
         &mut self,
-        paths: &mut Paths<'_, R>,
+        (paths, ended): (&mut Paths<'_, R>, &mut Vec<u32>),
         roulette: Option<impl Fn([u32; 2]) -> Roulette<'b>>,
     ) {
         let (columns, vertices, n) = (&mut *self.columns, &*self.vertices, self.vertices.len());
@@ -191,23 +196,35 @@ impl Batch {
             None => columns.sample_alone(&self.models, vertices),
         }
         let Columns { drawn, next, numbers, .. } = columns;
-        let n = padded(n);
-        in_lanes(Onward { n, vertices, drawn, next });
+        in_lanes(Onward { n: padded(n), vertices, drawn, next });
         if let Some(roulette) = roulette {
-            for (k, &path) in vertices.path.iter().enumerate() {
+            for (k, &path) in vertices.paths().iter().enumerate() {
                 let (p, beta) = (vector(&vertices.at.p, k), spectrum(&next.beta, k));
                 let here = roulette(paths.place[path as usize].pixel);
                 next.survival[k] = here.at_least(next.survival[k], p, beta);
             }
         }
-        in_lanes(Decide { n, depth: &vertices.depth, u: &numbers.roulette, next });
-        for (k, &path) in vertices.path.iter().enumerate() {
+        in_lanes(Decide { n: padded(n), depth: &vertices.depth, u: &numbers.roulette, next });
+        in_lanes(Leave {
+            vertices,
+            looks: &self.lights.looks,
+            drawn,
+            next,
+            rays: Ray::rows_mut(&mut paths.ray),
+            carried: &mut paths.carried,
+            behind: &mut paths.behind,
+        });
+        for (k, &path) in vertices.paths().iter().enumerate() {
             let i = path as usize;
-            if next.goes_on[k] > 0.0 {
-                paths.go_on(i, vertices, drawn, next, k);
-            } else {
-                paths.ended[i] = true;
+            if next.goes_on[k] <= 0.0 {
+                ended.push(path);
+                continue;
             }
+            let Steps { depth, n_smooth, .. } = paths.steps[i];
+            let smooth = u32::from(drawn.delta[k] <= 0.0);
+            let eta_scale = next.eta_scale[k];
+            paths.steps[i] = Steps { depth: depth + 1, n_smooth: n_smooth + smooth, eta_scale };
+            paths.record[i].goes_on(vector(&vertices.at.p, k), spectrum(&next.beta, k));
         }
     }
 }

@@ -52,11 +52,11 @@ impl Escapes {
                 &mut pdf[..],
             );
             for (k, i) in which.iter().map(|i| *i as usize).enumerate() {
-                let (beta, record) = (paths.beta[i], &mut paths.record[i]);
-                let by = paths.depth[i].checked_sub(1).map_or(Finder::Camera, Finder::Bsdf);
+                let (beta, last, record) = (paths.beta(i), paths.last(i), &mut paths.record[i]);
+                let by = paths.steps[i].depth.checked_sub(1).map_or(Finder::Camera, Finder::Bsdf);
                 let found = |light, w| record.found(by, beta * light, w);
-                let (l, last) = (spectrum(radiance, k), paths.last[i].as_ref());
-                paths.l[i] += beta * scene.weighted((light, l), last, how.mis, |_| pdf[k], found);
+                let l = spectrum(radiance, k);
+                paths.l[i] += beta * scene.weighted((light, l), last.as_ref(), how.mis, |_| pdf[k], found);
             }
         }
         self.path.clear();

@@ -1,10 +1,9 @@
 //! New paths of a block: [`Fresh`].
 
-use sparrow_geometry::Ray;
 use sparrow_math::{InLanes, Real, in_lanes};
 use sparrow_spectra::Wavelengths;
 
-use super::column::{BATCH, Column, load, padded, store_vector, vector};
+use super::column::{BATCH, Column, load, padded, put_vector, store_vector, vector};
 use crate::camera::Camera;
 use crate::integrator::start::{CameraNumbers, CameraSample, FilmPlace, film_point};
 use crate::plan::RenderPlan;
@@ -63,31 +62,50 @@ impl<'a> Fresh<'a> {
         let n = self.places.len();
         columns.fill(sampler, &self.samplers, scene);
         plan.sensor.wavelengths_many(&columns.wavelength[..n], &mut self.lambda);
-        if !scene.camera.moves() {
+        if scene.camera.moves() {
+            self.one_by_one(scene, plan);
+        } else {
+            if scene.moves {
+                columns.time[..n].iter_mut().for_each(|time| *time = scene.camera.time(*time));
+            }
             in_lanes(Rays { n: padded(n), plan, camera: &scene.camera, columns });
         }
         n > 0
     }
 
-    /// Each with its sampler.
-    pub(super) fn iter(
-        &self,
-        scene: &Scene,
-        plan: &RenderPlan,
-    ) -> impl Iterator<Item = (PixelSampler<'a>, CameraSample)> {
-        let columns = &*self.columns;
-        self.places.iter().zip(&self.samplers).zip(&self.lambda).enumerate().map(
-            move |(k, ((place, sampler), lambda))| {
-                if scene.camera.moves() {
-                    let FilmPlace { pixel, sample, .. } = *place;
-                    return (*sampler, CameraSample::new(scene, plan, pixel, sample, &columns.numbers(k)));
-                }
-                let time = if scene.moves { scene.camera.time(columns.time[k]) } else { 0.0 };
-                let ray = Ray { time, ..Ray::new(vector(&columns.o, k), vector(&columns.d, k)) };
-                let place = FilmPlace { weight: columns.weight[k], ..*place };
-                (*sampler, CameraSample { place, lambda: *lambda, ray })
-            },
-        )
+    /// Rays of a camera that moves.
+    fn one_by_one(&mut self, scene: &Scene, plan: &RenderPlan) {
+        let columns = &mut *self.columns;
+        for (k, FilmPlace { pixel, sample, .. }) in self.places.iter().copied().enumerate() {
+            let start = CameraSample::new(scene, plan, pixel, sample, &columns.numbers(k));
+            put_vector(&mut columns.o, k, start.ray.o);
+            put_vector(&mut columns.d, k, start.ray.d);
+            columns.time[k] = start.ray.time;
+            columns.weight[k] = start.place.weight;
+        }
+    }
+
+    /// How many there are.
+    pub(super) fn len(&self) -> usize {
+        self.places.len()
+    }
+    /// The place of one on the film.
+    #[inline(always)]
+    pub(super) fn place(&self, k: usize) -> FilmPlace {
+        FilmPlace { weight: self.columns.weight[k], ..self.places[k] }
+    }
+    /// The numbers of each.
+    pub(super) fn samplers(&self) -> &[PixelSampler<'a>] {
+        &self.samplers
+    }
+    /// The wavelengths of each.
+    pub(super) fn lambda(&self) -> &[Wavelengths] {
+        &self.lambda
+    }
+    /// Puts their rays to those places.
+    pub(super) fn put_rays(&self, rays: &mut [[f32; 8]], places: &[u32]) {
+        let Columns { o, d, time, .. } = &*self.columns;
+        in_lanes(PutRays { o, d, time, rays, places });
     }
 }
 
@@ -100,6 +118,8 @@ impl Columns {
         draw(Draw::One(wavelength, &mut self.wavelength[..]));
         if scene.moves {
             draw(Draw::One(time, &mut self.time[..]));
+        } else {
+            self.time[..padded(n)].fill(0.0);
         }
         if scene.camera.has_lens() {
             draw(Draw::Two(lens, self.lens.each_mut().map(|c| &mut c[..])));
@@ -136,6 +156,28 @@ impl InLanes for Rays<'_> {
             w.store(&mut weight[..], k);
             store_vector(from, o, k);
             store_vector(to, d, k);
+        }
+    }
+}
+
+/// Writes rays without end to their places.
+pub(super) struct PutRays<'a> {
+    pub(super) o: &'a [Column; 3],
+    pub(super) d: &'a [Column; 3],
+    pub(super) time: &'a Column,
+    pub(super) rays: &'a mut [[f32; 8]],
+    pub(super) places: &'a [u32],
+}
+
+impl InLanes for PutRays<'_> {
+    type Output = ();
+    #[inline(always)]
+    fn run<R: Real>(self) {
+        let PutRays { o, d, time, rays, places } = self;
+        let end = R::of(f64::INFINITY);
+        for (k, places) in (0..).step_by(R::WIDTH).zip(places.chunks(R::WIDTH)) {
+            let (o, d) = (vector::<R>(o, k), vector::<R>(d, k));
+            R::scatter_rows([o.x, o.y, o.z, d.x, d.y, d.z, end, load(time, k)], rays, places);
         }
     }
 }

@@ -16,6 +16,8 @@ use crate::scene::Scene;
 pub(super) struct LightSamples {
     /// A light is to be sampled at the vertex.
     pub(super) asked: Vec<bool>,
+    /// 1 where the direction that the BSDF gives looks for lights, else 0.
+    pub(super) looks: Column,
     /// The light that was chosen, or [`NO_LIGHT`].
     light: Vec<u32>,
     /// Of that choice.
@@ -67,11 +69,16 @@ impl LightSamples {
         vertices: &Vertices,
         (choice, u): (&Column, &[Column; 2]),
     ) -> usize {
-        let n = vertices.len();
+        let (n, lights) = (vertices.len(), scene.lights());
+        let in_lanes = |light: u32, n: usize| n >= FEW && lights.samples_in_lanes(scene.geometry(), light);
+        if let Some(only) = lights.only().filter(|&light| self.asked.iter().all(|a| *a) && in_lanes(light, n))
+        {
+            self.at_all(scene, only, vertices, u);
+            return n;
+        }
         self.choose(scene, vertices, choice);
         let end = self.light.iter().rposition(|light| *light != NO_LIGHT).map_or(0, |k| k + 1);
-        let (first, lights) = (self.light.first().copied().unwrap_or(NO_LIGHT), scene.lights());
-        let in_lanes = |light: u32, n: usize| n >= FEW && lights.samples_in_lanes(scene.geometry(), light);
+        let first = self.light.first().copied().unwrap_or(NO_LIGHT);
         if first != NO_LIGHT && self.light.iter().all(|light| *light == first) && in_lanes(first, n) {
             self.at_all(scene, first, vertices, u);
         } else {
@@ -128,7 +135,7 @@ impl LightSamples {
     ) {
         for k in chosen.iter().map(|k| *k as usize) {
             let (at, u) = (vertices.lit_point(k), [u[0][k], u[1][k]]);
-            let w = &lambda[vertices.path[k] as usize];
+            let w = &lambda[vertices.paths()[k] as usize];
             if let Some(s) = scene.lights().sample(scene.geometry(), light, &at, u, w) {
                 self.put(k, &s);
             }

@@ -30,7 +30,7 @@ use self::escapes::Escapes;
 use self::families::Families;
 use self::fresh::Fresh;
 use self::groups::Groups;
-use self::paths::Paths;
+use self::paths::{Paths, Steps};
 use self::shadow::Shadows;
 use super::start::FilmPlace;
 use super::{Exposed, Finder, PathIntegrator, RayCounts, Record};
@@ -47,9 +47,11 @@ pub(crate) struct Block<'a, R> {
     fresh: Fresh<'a>,
     paths: Paths<'a, R>,
     families: Families,
-    /// Places of paths that have ended, in order.
     colours: Colours,
+    /// Places of paths that have ended.
     ended: Vec<u32>,
+    /// Places of paths that begin, and their families.
+    begun: [Vec<u32>; 2],
     hits: Vec<Option<Hit>>,
     escapes: Escapes,
     groups: Groups,
@@ -66,6 +68,7 @@ impl<R: Record + Default> Default for Block<'_, R> {
             families: Families::default(),
             colours: Colours::default(),
             ended: Vec::new(),
+            begun: Default::default(),
             hits: Vec::new(),
             escapes: Escapes::default(),
             groups: Groups::default(),
@@ -95,10 +98,13 @@ impl<'a, R: Record + Default> Block<'a, R> {
             for i in 0..self.groups.len() {
                 let (key, which) = self.groups.batch(i);
                 self.batch.begin(scene, &how, sampler, (&mut self.paths, &self.hits), (key, which));
-                self.batch.sample_lights(scene, &how, &mut self.paths);
+                self.batch.sample_lights(scene, &how, &self.paths);
                 self.batch.bind(scene, (&mut self.paths, &self.hits), key);
                 self.batch.direct(&how, &self.paths, &mut self.shadows);
-                self.batch.scatter(&mut self.paths, tile.learned.map(|_| |pixel| tile.roulette(pixel)));
+                self.batch.scatter(
+                    (&mut self.paths, &mut self.ended),
+                    tile.learned.map(|_| |pixel| tile.roulette(pixel)),
+                );
             }
             self.rays.shadow += self.shadows.trace(scene, &mut self.paths);
             self.film(tile);
@@ -116,18 +122,23 @@ impl<'a, R: Record + Default> Block<'a, R> {
         sampler: &'a Sampler,
         samples: &mut impl Iterator<Item = ([u32; 2], u32)>,
     ) -> bool {
-        let Block { fresh, paths, families, ended, rays, .. } = self;
+        let Block { fresh, paths, families, ended, begun: [places, of], rays, .. } = self;
         let mut room = N_PATHS.saturating_sub(paths.len() - ended.len()) / how.splits as usize;
         while room > 0 && fresh.draw(scene, sampler, plan, &mut samples.take(room)) {
-            fresh.iter(scene, plan).for_each(|(sampler, start)| {
-                let family = if how.splits > 1 { families.push(start.place) } else { 0 };
-                let place = ended.pop().map_or(paths.len(), |i| i as usize);
-                paths.put(place, sampler, start, family);
-                rays.camera += 1;
-                room -= 1;
-            });
+            let n = fresh.len();
+            places.clear();
+            places.extend(ended.drain(ended.len().saturating_sub(n)..).rev());
+            places.extend((paths.len() as u32..).take(n - places.len()));
+            of.clear();
+            if how.splits > 1 {
+                of.extend((0..n).map(|k| families.push(fresh.place(k))));
+            }
+            paths.begin(fresh, places, of);
+            rays.camera += n as u64;
+            room -= n;
         }
         // From the end, so that what takes the place of a path is under way.
+        ended.sort_unstable();
         ended.drain(..).rev().for_each(|i| paths.remove(i as usize));
         paths.len() > 0
     }
@@ -140,7 +151,7 @@ impl<'a, R: Record + Default> Block<'a, R> {
         let paths = &mut self.paths;
         for i in 0..paths.len() {
             let there = self.hits[i].filter(|hit| scene.material_of(hit.shape).is_some());
-            let Some(hit) = there.filter(|_| paths.depth[i] == 0) else { continue };
+            let Some(hit) = there.filter(|_| paths.steps[i].depth == 0) else { continue };
             let FilmPlace { pixel, sample, .. } = paths.place[i];
             for way in 1..how.splits {
                 let sample = plan.sample_of_way(sample, way);
@@ -171,11 +182,12 @@ impl<'a, R: Record + Default> Block<'a, R> {
                 Some(hit) => Some(scene.geometry().surface(&paths.ray[i], hit)),
                 None => None,
             };
-            let (beta, last, lambda) = (paths.beta[i], paths.last[i].as_ref(), &paths.lambda[i]);
-            let by = paths.depth[i].checked_sub(1).map_or(Finder::Camera, Finder::Bsdf);
+            let (beta, last, lambda) = (paths.beta(i), paths.last(i), &paths.lambda[i]);
+            let by = paths.steps[i].depth.checked_sub(1).map_or(Finder::Camera, Finder::Bsdf);
             let record = &mut paths.record[i];
             let found = |light, w| record.found(by, beta * light, w);
-            paths.l[i] += beta * scene.emitted(&paths.ray[i], point.as_ref(), last, how.mis, lambda, found);
+            paths.l[i] +=
+                beta * scene.emitted(&paths.ray[i], point.as_ref(), last.as_ref(), how.mis, lambda, found);
         }
         if let Some(around) = around {
             self.escapes.find(scene, how, around, paths);
@@ -187,10 +199,10 @@ impl<'a, R: Record + Default> Block<'a, R> {
         let paths = &mut self.paths;
         self.groups.clear(2 * scene.n_materials());
         for (i, hit) in self.hits.iter().enumerate() {
-            let (depth, n_smooth) = (paths.depth[i], paths.n_smooth[i]);
+            let Steps { depth, n_smooth, .. } = paths.steps[i];
             let deep = depth == how.max_depth || n_smooth == how.max_smooth;
             let Some(hit) = hit.as_ref().filter(|_| !deep) else {
-                paths.ended[i] = true;
+                self.ended.push(i as u32);
                 continue;
             };
             match scene.material_of(hit.shape) {
@@ -210,7 +222,6 @@ impl<'a, R: Record + Default> Block<'a, R> {
     /// Hands over the light of paths that have ended, whose places are free.
     fn film<T: TileObserver<Record = R>>(&mut self, tile: &mut Exposed<'_, T>) {
         let Block { paths, ended, families, colours, .. } = self;
-        ended.extend((0..paths.len() as u32).filter(|&i| paths.ended[i as usize]));
         colours.measure(&tile.plan.sensor, paths, ended, |i, rgb| {
             if tile.how.splits == 1 {
                 tile.take_rgb(paths.place[i], rgb, &paths.lambda[i], &paths.record[i]);

@@ -4,6 +4,7 @@ use sparrow_math::{InLanes, Real};
 use sparrow_spectra::{N_LAMBDA, Spectrum};
 
 use super::column::{Column, load, spectrum, store_spectrum, store_vector, vector};
+use super::paths::NO_DENSITY;
 use super::vertices::Vertices;
 use crate::integrator::path::carried;
 use crate::roulette::by_throughput;
@@ -85,6 +86,40 @@ impl InLanes for Decide<'_> {
             let ends = asked & load::<R>(u, k).ge(survival);
             store_spectrum(Spectrum::select(asked, beta * (R::ONE / survival), beta), &mut next.beta, k);
             load::<R>(&next.goes_on, k).only_where(!ends).store(&mut next.goes_on[..], k);
+        }
+    }
+}
+
+/// Puts what paths take with them from their vertices to the paths. Those that end take it along for nothing.
+pub(super) struct Leave<'a> {
+    pub(super) vertices: &'a Vertices,
+    pub(super) looks: &'a Column,
+    pub(super) drawn: &'a Directions,
+    pub(super) next: &'a Next,
+    pub(super) rays: &'a mut [[f32; 8]],
+    pub(super) carried: &'a mut [[f32; 8]],
+    pub(super) behind: &'a mut [[f32; 8]],
+}
+
+impl InLanes for Leave<'_> {
+    type Output = ();
+    #[inline(always)]
+    fn run<R: Real>(self) {
+        let Leave { vertices, looks, drawn, next, rays, carried, behind } = self;
+        let end = R::of(f64::INFINITY);
+        for (k, at) in (0..).step_by(R::WIDTH).zip(vertices.paths().chunks(R::WIDTH)) {
+            let (o, d) = (vector::<R>(&next.o, k), vector::<R>(&drawn.wi, k));
+            R::scatter_rows([o.x, o.y, o.z, d.x, d.y, d.z, end, load(&vertices.time, k)], rays, at);
+
+            let ([a, b, c, d], nm) = (spectrum::<R>(&next.beta, k).0, spectrum::<R>(&vertices.nm, k).0);
+            R::scatter_rows([a, b, c, d, nm[0], nm[1], nm[2], nm[3]], carried, at);
+
+            let looks = load::<R>(looks, k).gt(R::ZERO);
+            let density = (load::<R>(&vertices.ways, k) * load(&drawn.density, k)).only_where(looks);
+            let delta = load::<R>(&drawn.delta, k).gt(R::ZERO);
+            let density = R::select(delta, R::of(NO_DENSITY), density);
+            let (p, n) = (vector::<R>(&vertices.at.p, k), vector::<R>(&vertices.ns, k));
+            R::scatter_rows([p.x, p.y, p.z, density, n.x, n.y, n.z, R::ZERO], behind, at);
         }
     }
 }

@@ -1,45 +1,53 @@
 //! The paths of a block: [`Paths`].
 
 use sparrow_geometry::Ray;
+use sparrow_math::vec3;
 use sparrow_spectra::{Spectrum, Wavelengths};
 
-use super::column::{spectrum, vector};
-use super::onward::{Directions, Next};
-use super::vertices::Vertices;
+use super::fresh::Fresh;
+use crate::integrator::Record;
 use crate::integrator::start::FilmPlace;
-use crate::integrator::{CameraSample, Record};
+use crate::light::LitPoint;
 use crate::sampler::PixelSampler;
 use crate::scene::LastVertex;
 
-/// Paths under way, a column for each thing that is known of them.
+/// What stands for the density of a direction that a delta lobe gave, or the camera.
+pub(super) const NO_DENSITY: f64 = -1.0;
+
+/// What a path has been through.
+#[derive(Clone, Copy)]
+pub(super) struct Steps {
+    /// Scattering events.
+    pub(super) depth: u32,
+    /// Those by lobes that are no delta.
+    pub(super) n_smooth: u32,
+    /// Undoes the squeeze of refraction.
+    pub(super) eta_scale: f32,
+}
+
+impl Steps {
+    /// None yet.
+    const NONE: Steps = Steps { depth: 0, n_smooth: 0, eta_scale: 1.0 };
+}
+
+/// Paths under way, a column for each thing that is known of them. What lanes of paths need together stands in rows of eight
+/// numbers, which they read and write at once.
 pub(super) struct Paths<'a, R> {
     pub(super) place: Vec<FilmPlace>,
     pub(super) sampler: Vec<PixelSampler<'a>>,
     pub(super) lambda: Vec<Wavelengths>,
     pub(super) ray: Vec<Ray>,
     pub(super) l: Vec<Spectrum<f32>>,
-    pub(super) beta: Vec<Spectrum<f32>>,
-    pub(super) eta_scale: Vec<f32>,
-    pub(super) last: Vec<Option<LastVertex>>,
-    pub(super) depth: Vec<u32>,
+    /// What the path carries, and its wavelengths in nm.
+    pub(super) carried: Vec<[f32; 8]>,
+    /// The last vertex: its place, the density of the direction taken or [`NO_DENSITY`], and its shading normal.
+    pub(super) behind: Vec<[f32; 8]>,
+    pub(super) steps: Vec<Steps>,
     /// Which way on from the first vertex it takes.
     pub(super) way: Vec<u32>,
     /// Of the camera sample that it belongs to, where there are several ways.
     pub(super) family: Vec<u32>,
-    pub(super) n_smooth: Vec<u32>,
-    /// The direction from the BSDF looks for lights.
-    pub(super) looks: Vec<bool>,
-    pub(super) ended: Vec<bool>,
     pub(super) record: Vec<R>,
-}
-
-/// Writes the number of a path, or of one more.
-#[inline(always)]
-fn put<T>(column: &mut Vec<T>, i: usize, value: T) {
-    match column.get_mut(i) {
-        Some(place) => *place = value,
-        None => column.push(value),
-    }
 }
 
 impl<R> Default for Paths<'_, R> {
@@ -50,52 +58,95 @@ impl<R> Default for Paths<'_, R> {
             lambda: Vec::new(),
             ray: Vec::new(),
             l: Vec::new(),
-            beta: Vec::new(),
-            eta_scale: Vec::new(),
-            last: Vec::new(),
-            depth: Vec::new(),
+            carried: Vec::new(),
+            behind: Vec::new(),
+            steps: Vec::new(),
             way: Vec::new(),
             family: Vec::new(),
-            n_smooth: Vec::new(),
-            looks: Vec::new(),
-            ended: Vec::new(),
             record: Vec::new(),
         }
     }
 }
 
-impl<'a, R: Record + Default> Paths<'a, R> {
+/// Writes a number to each of the `places` of a column.
+#[inline(always)]
+fn put<T>(column: &mut [T], places: &[u32], value: impl Fn(usize) -> T) {
+    for (k, &i) in places.iter().enumerate() {
+        column[i as usize] = value(k);
+    }
+}
+
+impl<R> Paths<'_, R> {
     pub(super) fn len(&self) -> usize {
         self.ray.len()
     }
 
-    /// A new path in place `i`, the first one that is empty or one whose path has ended.
-    pub(super) fn put(&mut self, i: usize, sampler: PixelSampler<'a>, start: CameraSample, family: u32) {
-        put(&mut self.place, i, start.place);
-        put(&mut self.sampler, i, sampler);
-        put(&mut self.lambda, i, start.lambda);
-        put(&mut self.ray, i, start.ray);
-        put(&mut self.l, i, Spectrum::ZERO);
-        put(&mut self.beta, i, Spectrum::ONE);
-        put(&mut self.eta_scale, i, 1.0);
-        put(&mut self.last, i, None);
-        put(&mut self.depth, i, 0);
-        put(&mut self.way, i, 0);
-        put(&mut self.family, i, family);
-        put(&mut self.n_smooth, i, 0);
-        put(&mut self.looks, i, true);
-        put(&mut self.ended, i, false);
-        put(&mut self.record, i, R::default());
+    /// What path `i` carries.
+    #[inline(always)]
+    pub(super) fn beta(&self, i: usize) -> Spectrum<f32> {
+        let [a, b, c, d, ..] = self.carried[i];
+        Spectrum([a, b, c, d])
+    }
+    /// The vertex with which the direction of path `i` was drawn, unless a delta lobe gave it, or the camera.
+    #[inline(always)]
+    pub(super) fn last(&self, i: usize) -> Option<LastVertex> {
+        let [x, y, z, pdf, nx, ny, nz, _] = self.behind[i];
+        (pdf >= 0.0).then_some(LastVertex { at: LitPoint { p: vec3(x, y, z), n: vec3(nx, ny, nz) }, pdf })
+    }
+}
+
+impl<'a, R: Record + Default> Paths<'a, R> {
+    /// Paths of those families begin in those places: of paths that have ended, or behind the last.
+    pub(super) fn begin(&mut self, fresh: &Fresh<'a>, places: &[u32], families: &[u32]) {
+        self.grow(fresh, places);
+        fresh.put_rays(Ray::rows_mut(&mut self.ray), places);
+        put(&mut self.place, places, |k| fresh.place(k));
+        put(&mut self.sampler, places, |k| fresh.samplers()[k]);
+        put(&mut self.lambda, places, |k| fresh.lambda()[k]);
+        put(&mut self.carried, places, |k| {
+            let [a, b, c, d] = fresh.lambda()[k].lambda;
+            [1.0, 1.0, 1.0, 1.0, a, b, c, d]
+        });
+        put(&mut self.l, places, |_| Spectrum::ZERO);
+        put(&mut self.behind, places, |_| BEGIN);
+        put(&mut self.steps, places, |_| Steps::NONE);
+        put(&mut self.way, places, |_| 0);
+        put(&mut self.family, places, |k| families.get(k).copied().unwrap_or(0));
+        put(&mut self.record, places, |_| R::default());
+    }
+
+    /// Makes room up to the last of `places`.
+    fn grow(&mut self, fresh: &Fresh<'a>, places: &[u32]) {
+        let n = places.iter().map(|i| *i as usize + 1).fold(self.len(), usize::max);
+        if n == self.len() {
+            return;
+        }
+        self.place.resize(n, fresh.place(0));
+        self.sampler.resize(n, fresh.samplers()[0]);
+        self.lambda.resize(n, fresh.lambda()[0]);
+        self.ray.resize(n, Ray::new(vec3(0.0, 0.0, 0.0), vec3(0.0, 0.0, 0.0)));
+        self.l.resize(n, Spectrum::ZERO);
+        self.carried.resize(n, [0.0; 8]);
+        self.behind.resize(n, BEGIN);
+        self.steps.resize(n, Steps::NONE);
+        self.way.resize(n, 0);
+        self.family.resize(n, 0);
+        self.record.resize_with(n, R::default);
     }
 
     /// Another way on from the first vertex of path `i`; what the path has found up to there stays with the first.
     pub(super) fn branch(&mut self, i: usize, way: u32, sampler: PixelSampler<'a>) {
-        let lambda = self.lambda[i];
-        let start = CameraSample { place: self.place[i], lambda, ray: self.ray[i] };
-        self.put(self.len(), sampler, start, self.family[i]);
-        if let Some(last) = self.way.last_mut() {
-            *last = way;
-        }
+        self.place.push(self.place[i]);
+        self.sampler.push(sampler);
+        self.lambda.push(self.lambda[i]);
+        self.ray.push(self.ray[i]);
+        self.l.push(Spectrum::ZERO);
+        self.carried.push(self.carried[i]);
+        self.behind.push(self.behind[i]);
+        self.steps.push(self.steps[i]);
+        self.way.push(way);
+        self.family.push(self.family[i]);
+        self.record.push(R::default());
     }
 
     /// Puts the last path in the place of one that has ended.
@@ -105,33 +156,14 @@ impl<'a, R: Record + Default> Paths<'a, R> {
         self.lambda.swap_remove(i);
         self.ray.swap_remove(i);
         self.l.swap_remove(i);
-        self.beta.swap_remove(i);
-        self.eta_scale.swap_remove(i);
-        self.last.swap_remove(i);
-        self.depth.swap_remove(i);
+        self.carried.swap_remove(i);
+        self.behind.swap_remove(i);
+        self.steps.swap_remove(i);
         self.way.swap_remove(i);
         self.family.swap_remove(i);
-        self.n_smooth.swap_remove(i);
-        self.looks.swap_remove(i);
-        self.ended.swap_remove(i);
         self.record.swap_remove(i);
     }
-
-    /// Takes path `i` from vertex `k` of a batch along the direction that was drawn.
-    #[inline(always)]
-    pub(super) fn go_on(&mut self, i: usize, vertices: &Vertices, drawn: &Directions, next: &Next, k: usize) {
-        self.last[i] = None;
-        if drawn.delta[k] <= 0.0 {
-            self.n_smooth[i] += 1;
-            let pdf = if self.looks[i] { vertices.ways[k] * drawn.density[k] } else { 0.0 };
-            self.last[i] = Some(LastVertex { at: vertices.lit_point(k), pdf });
-        }
-        let beta = spectrum(&next.beta, k);
-        self.record[i].goes_on(vector(&vertices.at.p, k), beta);
-        self.beta[i] = beta;
-        self.eta_scale[i] = next.eta_scale[k];
-        self.depth[i] += 1;
-        let ray = &mut self.ray[i];
-        *ray = Ray { time: ray.time, ..Ray::new(vector(&next.o, k), vector(&drawn.wi, k)) };
-    }
 }
+
+/// What lies behind a path that begins.
+const BEGIN: [f32; 8] = [0.0, 0.0, 0.0, NO_DENSITY as f32, 0.0, 0.0, 0.0, 0.0];

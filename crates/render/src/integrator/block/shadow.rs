@@ -1,7 +1,7 @@
 //! Shadow rays of a block: [`Shadows`].
 
 use sparrow_geometry::{Ray, SHADOW_END};
-use sparrow_math::{InLanes, Real, Vec3, in_lanes};
+use sparrow_math::{InLanes, Real, Vec3, in_lanes, vec3};
 use sparrow_mis::Mis;
 use sparrow_spectra::{N_LAMBDA, Spectrum};
 
@@ -13,24 +13,28 @@ use crate::integrator::path::Scattered;
 use crate::integrator::{Finder, PathIntegrator, Record};
 use crate::scene::Scene;
 
-/// What a path gets where its shadow ray arrives.
+/// Whose shadow ray it is, and the MIS weight of what arrives.
+#[derive(Clone, Copy, Default)]
 struct Pending {
     path: u32,
     /// Scattering events before this vertex.
     depth: u32,
-    /// Before the MIS weight.
-    unweighted: Spectrum<f32>,
     weight: f32,
-    weighted: Spectrum<f32>,
 }
 
 /// Shadow rays to be traced, and what depends on them.
 #[derive(Default)]
 pub(super) struct Shadows {
     columns: Box<Columns>,
+    /// How many there are; there is room for more.
+    n: usize,
     rays: Vec<Ray>,
     pending: Vec<Pending>,
+    /// What arrives along each, with its MIS weight and before.
+    arrives: Vec<[f32; 8]>,
     occluded: Vec<bool>,
+    /// Which of them the rays of a batch are.
+    places: Vec<u32>,
 }
 
 /// Shadow rays of a batch, and what they bring.
@@ -59,38 +63,37 @@ impl Shadows {
     ) {
         let out = &mut *self.columns;
         in_lanes(Arrive { n: padded(n), mis: how.mis, vertices, lights, f_cos, pdf, out });
-        for (k, &path) in vertices.path[..n].iter().enumerate() {
-            if out.lit[k] > 0.0 {
-                let i = path as usize;
-                self.rays.push(Ray {
-                    o: vector(&out.o, k),
-                    d: vector(&out.d, k),
-                    t_max: out.t_max[k],
-                    time: paths.ray[i].time,
-                });
-                self.pending.push(Pending {
-                    path,
-                    depth: paths.depth[i],
-                    unweighted: spectrum(&out.unweighted, k),
-                    weight: out.weight[k],
-                    weighted: spectrum(&out.weighted, k),
-                });
-            }
+        let room = self.n + n;
+        if room > self.rays.len() {
+            self.rays.resize(room, Ray::new(vec3(0.0, 0.0, 0.0), vec3(0.0, 0.0, 0.0)));
+            self.arrives.resize(room, [0.0; 8]);
+            self.pending.resize(room, Pending::default());
         }
+        let first = self.n;
+        self.places.clear();
+        for (k, &path) in vertices.paths()[..n].iter().enumerate() {
+            // What is not lit is overwritten by the next.
+            self.places.push((self.n - first) as u32);
+            self.pending[self.n] =
+                Pending { path, depth: paths.steps[path as usize].depth, weight: out.weight[k] };
+            self.n += usize::from(out.lit[k] > 0.0);
+        }
+        let (rays, arrives) = (Ray::rows_mut(&mut self.rays[first..]), &mut self.arrives[first..]);
+        in_lanes(Ask { columns: out, time: &vertices.time, places: &self.places, rays, arrives });
     }
 
     /// Traces them, and adds the light that arrives.
     pub(super) fn trace<R: Record>(&mut self, scene: &Scene, paths: &mut Paths<'_, R>) -> u64 {
-        scene.occluded_many(&self.rays, &mut self.occluded);
-        for (p, _) in self.pending.iter().zip(&self.occluded).filter(|(_, occluded)| !**occluded) {
+        let n = core::mem::take(&mut self.n);
+        scene.occluded_many(&self.rays[..n], &mut self.occluded);
+        let arrived =
+            self.pending.iter().zip(&self.arrives).zip(&self.occluded).filter(|(_, occluded)| !**occluded);
+        for ((p, [a, b, c, d, unweighted @ ..]), _) in arrived {
             let i = p.path as usize;
-            paths.record[i].found(Finder::Light(p.depth), p.unweighted, p.weight);
-            paths.l[i] += p.weighted;
+            paths.record[i].found(Finder::Light(p.depth), Spectrum(*unweighted), p.weight);
+            paths.l[i] += Spectrum([*a, *b, *c, *d]);
         }
-        let n = self.rays.len() as u64;
-        self.rays.clear();
-        self.pending.clear();
-        n
+        n as u64
     }
 }
 
@@ -129,6 +132,30 @@ impl InLanes for Arrive<'_> {
             store_vector(Vec3::select(endless, wi, d), &mut out.d, k);
             let t_max = R::select(endless, R::of(f64::INFINITY), R::of(f64::from(SHADOW_END)));
             t_max.store(&mut out.t_max[..], k);
+        }
+    }
+}
+
+/// Puts shadow rays, and what arrives along them, to their places.
+struct Ask<'a> {
+    columns: &'a Columns,
+    time: &'a Column,
+    places: &'a [u32],
+    rays: &'a mut [[f32; 8]],
+    arrives: &'a mut [[f32; 8]],
+}
+
+impl InLanes for Ask<'_> {
+    type Output = ();
+    #[inline(always)]
+    fn run<R: Real>(self) {
+        let Ask { columns, time, places, rays, arrives } = self;
+        let Columns { o, d, t_max, unweighted, weighted, .. } = columns;
+        for (k, places) in (0..).step_by(R::WIDTH).zip(places.chunks(R::WIDTH)) {
+            let (o, d) = (vector::<R>(o, k), vector::<R>(d, k));
+            R::scatter_rows([o.x, o.y, o.z, d.x, d.y, d.z, load(t_max, k), load(time, k)], rays, places);
+            let ([a, b, c, d], u) = (spectrum::<R>(weighted, k).0, spectrum::<R>(unweighted, k).0);
+            R::scatter_rows([a, b, c, d, u[0], u[1], u[2], u[3]], arrives, places);
         }
     }
 }

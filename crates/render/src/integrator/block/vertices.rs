@@ -1,11 +1,12 @@
 //! What is known of the vertices of a batch: [`Vertices`].
 
-use sparrow_geometry::{Hit, SurfaceColumns, SurfaceParts, SurfacePoint};
+use sparrow_geometry::{Hit, Ray, SurfaceColumns, SurfaceParts, SurfacePoint};
+use sparrow_math::{InLanes, Real, in_lanes, vec3};
 use sparrow_models::ModelKind;
-use sparrow_spectra::N_LAMBDA;
+use sparrow_spectra::{N_LAMBDA, Spectrum};
 
-use super::column::{Column, Rounded, pad, put_spectrum, put_vector, vector};
-use super::paths::Paths;
+use super::column::{Column, Rounded, pad, padded, store_spectrum, store_vector, vector};
+use super::paths::{Paths, Steps};
 use crate::integrator::{PathIntegrator, Record};
 use crate::light::LitPoint;
 use crate::material::Material;
@@ -14,8 +15,9 @@ use crate::scene::Scene;
 /// Vertices of one material, in columns.
 #[derive(Default)]
 pub(super) struct Vertices {
-    /// The path of each.
-    pub(super) path: Vec<u32>,
+    /// The path of each; up to whole registers that of the last.
+    path: Vec<u32>,
+    n: usize,
     /// Place and geometric normal.
     pub(super) at: Rounded,
     pub(super) ns: [Column; 3],
@@ -34,6 +36,7 @@ pub(super) struct Vertices {
     pub(super) depth: Column,
     /// Directions that the vertex draws.
     pub(super) ways: Column,
+    pub(super) time: Column,
 }
 
 fn slices<const N: usize>(columns: &mut [Column; N]) -> [&mut [f32]; N] {
@@ -42,7 +45,11 @@ fn slices<const N: usize>(columns: &mut [Column; N]) -> [&mut [f32]; N] {
 
 impl Vertices {
     pub(super) fn len(&self) -> usize {
-        self.path.len()
+        self.n
+    }
+    /// The path of each.
+    pub(super) fn paths(&self) -> &[u32] {
+        &self.path[..self.n]
     }
 
     /// Takes the vertices of `paths` numbered `which`, at most a batch, all of that material.
@@ -54,26 +61,27 @@ impl Vertices {
         hits: &[Option<Hit>],
         (material, which): (&Material, &[u32]),
     ) {
+        self.n = which.len();
         self.path.clear();
         self.path.extend_from_slice(which);
+        if let Some(&last) = which.last() {
+            self.path.resize(padded(which.len()), last);
+        }
+        if material.dispersive {
+            which.iter().for_each(|&i| paths.lambda[i as usize].terminate_secondary());
+        }
+        in_lanes(Gather { rays: Ray::rows(&paths.ray), carried: &paths.carried, vertices: self });
         for (k, &path) in which.iter().enumerate() {
-            let i = path as usize;
-            if material.dispersive {
-                paths.lambda[i].terminate_secondary();
-            }
-            put_vector(&mut self.wo, k, -paths.ray[i].d);
-            self.nm.iter_mut().zip(paths.lambda[i].lambda).for_each(|(column, nm)| column[k] = nm);
-            put_spectrum(&mut self.beta, k, paths.beta[i]);
-            self.eta_scale[k] = paths.eta_scale[i];
-            self.depth[k] = paths.depth[i] as f32;
-            self.ways[k] = how.ways_on(paths.depth[i]);
+            let Steps { depth, eta_scale, .. } = paths.steps[path as usize];
+            self.eta_scale[k] = eta_scale;
+            self.depth[k] = depth as f32;
+            self.ways[k] = how.ways_on(depth);
         }
         let fibre = matches!(material.kind, ModelKind::Fibre(_));
         let parts = SurfaceParts { uv: material.textured || fibre, derivatives: material.textured };
         scene.geometry().surface_many(&paths.ray, hits, which, parts, &mut self.surface());
-        let n = which.len();
-        let vectors = [&mut self.at.p, &mut self.ns, &mut self.tangent, &mut self.wo].into_iter().flatten();
-        vectors.chain(&mut self.nm).for_each(|c| pad(c, n));
+        let vectors = [&mut self.at.p, &mut self.ns, &mut self.tangent];
+        vectors.into_iter().flatten().for_each(|c| pad(c, which.len()));
     }
 
     fn surface(&mut self) -> SurfaceColumns<'_> {
@@ -84,7 +92,7 @@ impl Vertices {
     }
 
     /// A vertex as a point of a surface; of texture coordinates and derivatives, only what the material asks for.
-    pub(super) fn point(&self, k: usize, hit: &Hit, time: f32) -> SurfacePoint {
+    pub(super) fn point(&self, k: usize, hit: &Hit) -> SurfacePoint {
         SurfacePoint {
             p: vector(&self.at.p, k),
             p_error: vector(&self.at.p_error, k),
@@ -96,7 +104,7 @@ impl Vertices {
             tangent: vector(&self.tangent, k),
             shape: hit.shape,
             prim: hit.prim,
-            time,
+            time: self.time[k],
         }
     }
     /// Their second texture coordinates: across fibres.
@@ -107,5 +115,29 @@ impl Vertices {
     #[inline(always)]
     pub(super) fn lit_point(&self, k: usize) -> LitPoint {
         LitPoint { p: vector(&self.at.p, k), n: vector(&self.ns, k) }
+    }
+}
+
+/// Takes what the paths bring to their vertices.
+struct Gather<'a> {
+    rays: &'a [[f32; 8]],
+    carried: &'a [[f32; 8]],
+    vertices: &'a mut Vertices,
+}
+
+impl InLanes for Gather<'_> {
+    type Output = ();
+    #[inline(always)]
+    fn run<R: Real>(self) {
+        let Gather { rays, carried, vertices } = self;
+        let Vertices { path, wo, time, beta, nm, .. } = vertices;
+        for (k, path) in (0..).step_by(R::WIDTH).zip(path.chunks_exact(R::WIDTH)) {
+            let [_, _, _, x, y, z, _, when] = R::gather_rows(rays, path);
+            store_vector(-vec3(x, y, z), wo, k);
+            when.store(&mut time[..], k);
+            let [a, b, c, d, nm0, nm1, nm2, nm3] = R::gather_rows(carried, path);
+            store_spectrum(Spectrum([a, b, c, d]), beta, k);
+            store_spectrum(Spectrum([nm0, nm1, nm2, nm3]), nm, k);
+        }
     }
 }
