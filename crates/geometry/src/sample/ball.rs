@@ -31,7 +31,8 @@ impl Ball {
 }
 
 /// The cone that a ball fills.
-struct Cone<R> {
+#[derive(Clone, Copy)]
+pub(crate) struct Cone<R> {
     /// To the centre.
     distance: R,
     /// Sine of the half angle; 1 or more from inside.
@@ -61,11 +62,17 @@ impl<R: Real> Cone<R> {
 }
 
 impl Draw for Ball {
+    /// The way to the centre, and the cone around it.
+    type View<R: Real> = (Vec3<R>, Cone<R>);
+
     #[inline(always)]
-    fn draw<R: Real>(&self, from: Vec3<R>, _: Option<Vec3<R>>, u: [R; 2]) -> Drawn<R> {
+    fn view<R: Real>(&self, from: Vec3<R>, _: Option<Vec3<R>>) -> Self::View<R> {
+        let to_center = spread(self.center) - from;
+        (to_center, Cone::new(self, to_center))
+    }
+    #[inline(always)]
+    fn draw<R: Real>(&self, &(to_center, cone): &Self::View<R>, u: [R; 2]) -> Drawn<R> {
         let (center, radius) = (spread(self.center), R::of(self.radius.into()));
-        let to_center = center - from;
-        let cone = Cone::new(self, to_center);
 
         let local = warp::uniform_cone(u, cone.one_minus_cos);
         let (sin2, cos) = (local.x * local.x + local.y * local.y, local.z);

@@ -6,6 +6,7 @@ use sparrow_math::Real;
 const LEAST_COSINE: f64 = 0.01;
 
 /// Values at the corners (0, 0), (1, 0), (0, 1) and (1, 1).
+#[derive(Clone, Copy)]
 pub(crate) struct Bilinear<R>([R; 4]);
 
 /// Draws from the density on [0, 1] that runs from `a` to `b`.

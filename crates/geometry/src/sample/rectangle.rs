@@ -70,15 +70,24 @@ impl Rectangle {
     pub(crate) fn pdf(&self, from: Vec3<f32>, n: Option<Vec3<f32>>, p: Vec3<f32>) -> f32 {
         let seen = Seen::new(self, from);
         let at = p - self.corner;
-        seen.pdf(&seen.follow_cosine(n), [at.dot(self.axes[0]), at.dot(self.axes[1])].map(|x| x * seen.scale))
+        seen.pdf(
+            &seen.follow_cosine(self, n),
+            [at.dot(self.axes[0]), at.dot(self.axes[1])].map(|x| x * seen.scale),
+        )
     }
 }
 
 impl Draw for Rectangle {
+    /// The rectangle in its frame, and the density by which its directions follow the cosine.
+    type View<R: Real> = (Seen<R>, Bilinear<R>);
+
     #[inline(always)]
-    fn draw<R: Real>(&self, from: Vec3<R>, n: Option<Vec3<R>>, u: [R; 2]) -> Drawn<R> {
+    fn view<R: Real>(&self, from: Vec3<R>, n: Option<Vec3<R>>) -> Self::View<R> {
         let seen = Seen::new(self, from);
-        let warp = seen.follow_cosine(n);
+        (seen, seen.follow_cosine(self, n))
+    }
+    #[inline(always)]
+    fn draw<R: Real>(&self, (seen, warp): &Self::View<R>, u: [R; 2]) -> Drawn<R> {
         let warped = warp.sample(u);
         let [ax, ay, az] = spread_all(self.axes);
         let (r, large) = (&seen.rectangle, seen.is_large());
@@ -101,14 +110,13 @@ impl Draw for Rectangle {
 }
 
 /// A rectangle in the frame along its edges, an observer at the origin, scaled so that no coordinate exceeds 1.
-struct Seen<R> {
+#[derive(Clone, Copy)]
+pub(crate) struct Seen<R> {
     rectangle: SphericalRectangle<R>,
     /// Of the plane above the observer, signed.
     height: R,
     /// By which lengths are multiplied.
     scale: R,
-    /// The unit vectors of the frame.
-    axes: [Vec3<R>; 3],
 }
 
 impl<R: Real> Seen<R> {
@@ -122,7 +130,7 @@ impl<R: Real> Seen<R> {
         let scale = R::ONE / x0.abs().max(x1.abs()).max(y0.abs()).max(y1.abs()).max(height.abs());
         let (x, y, height) = ([x0 * scale, x1 * scale], [y0 * scale, y1 * scale], height * scale);
         let rectangle = SphericalRectangle::new(x, y, height.abs());
-        Seen { rectangle, height, scale, axes }
+        Seen { rectangle, height, scale }
     }
 
     /// Large enough to be drawn by solid angle.
@@ -149,11 +157,12 @@ impl<R: Real> Seen<R> {
 
     /// The density on the unit square by which directions follow the cosine to `n`; uniform where they need not.
     #[inline(always)]
-    fn follow_cosine(&self, n: Option<Vec3<R>>) -> Bilinear<R> {
+    fn follow_cosine(&self, of: &Rectangle, n: Option<Vec3<R>>) -> Bilinear<R> {
         let Some(n) = n else { return Bilinear::new([R::ONE; 4]) };
         let s = self.rectangle.solid_angle;
         let warped = s.ge(R::of(*WARPED.start())) & s.le(R::of(*WARPED.end()));
-        let n = vec3(n.dot(self.axes[0]), n.dot(self.axes[1]), n.dot(self.axes[2]));
+        let [ax, ay, az] = spread_all(of.axes);
+        let n = vec3(n.dot(ax), n.dot(ay), n.dot(az));
         let (c00, c10) = (self.cosine(n, 0, 0), self.cosine(n, 1, 0));
         let (c01, c11) = (self.cosine(n, 0, 1), self.cosine(n, 1, 1));
         Bilinear::of_cosines([
@@ -179,6 +188,7 @@ fn inverse_distance<R: Real>(x: R, z2: R) -> R {
 }
 
 /// A rectangle projected to the unit sphere around the origin.
+#[derive(Clone, Copy)]
 struct SphericalRectangle<R> {
     x: [R; 2],
     y: [R; 2],
@@ -320,7 +330,7 @@ mod tests {
                 let from = vec3(-x as f32, -y as f32, z as f32);
                 let exact = rectangle([x, y, z], lengths.map(f64::from));
                 for u in [[0.1_f32, 0.9], [0.5, 0.5], [0.83, 0.02], [0.999, 0.4]] {
-                    let s = r.draw(from, None, u);
+                    let s = r.draw(&r.view(from, None), u);
                     let again = r.pdf(from, None, s.p);
                     assert!((s.pdf / again - 1.0).abs() < 1e-5, "{from:?} {u:?}: {} and {again}", s.pdf);
                     let off = (from + s.wi * s.distance - s.p).length();
