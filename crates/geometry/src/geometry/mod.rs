@@ -134,6 +134,10 @@ impl Geometry {
         progress.finish();
         Geometry { bodies, instances, first_instance, bvh, few, stats }
     }
+    /// There are so few primitives that lists of rays ask for all of them, eight rays at once.
+    pub fn is_small(&self) -> bool {
+        self.few.is_some()
+    }
 
     /// Box around everything that can be hit.
     pub fn bounds(&self) -> Aabb {

@@ -41,6 +41,8 @@ use crate::scene::Scene;
 
 /// Paths under way at once: enough to fill the lanes of several materials, few enough for the second cache.
 const N_PATHS: usize = 1024;
+/// In a small scene, which leaves them all of the cache.
+const N_PATHS_OF_ROOM: usize = 2048;
 
 /// Paths side by side, and room for what happens at their vertices.
 pub(crate) struct Block<'a, R> {
@@ -123,7 +125,8 @@ impl<'a, R: Record + Default> Block<'a, R> {
         samples: &mut impl Iterator<Item = ([u32; 2], u32)>,
     ) -> bool {
         let Block { fresh, paths, families, ended, begun: [places, of], rays, .. } = self;
-        let mut room = N_PATHS.saturating_sub(paths.len() - ended.len()) / how.splits as usize;
+        let most = if scene.geometry().is_small() { N_PATHS_OF_ROOM } else { N_PATHS };
+        let mut room = most.saturating_sub(paths.len() - ended.len()) / how.splits as usize;
         while room > 0 && fresh.draw(scene, sampler, plan, &mut samples.take(room)) {
             let n = fresh.len();
             places.clear();
