@@ -21,9 +21,9 @@ const PILOT_SHARE: u64 = 64;
 const LEAST_PIXELS: usize = 64;
 /// Ways on among which it chooses.
 const CHOICES: [u32; 4] = [1, 2, 4, 8];
-/// More ways are taken only where each step makes the product of cost and variance less than this: rays are not all of the cost, and
+/// More ways are taken only where each step makes the product of cost and variance less than this: a further way costs more than its rays, and
 /// what most pictures are judged by leaves out single bright pixels, to which further ways owe part of what they gain.
-const WORTH: f64 = 0.9;
+const WORTH: f64 = 0.87;
 /// Noise is judged relative to a pixel's brightness and this part of the picture's, both squared.
 const DARK: f64 = 0.1;
 /// This part of the pixels, the noisiest, is left out.
