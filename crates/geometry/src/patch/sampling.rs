@@ -88,7 +88,11 @@ impl Patches {
     ) -> Option<Vec3<f32>> {
         let (flat, r) = self.rectangle(prim)?;
         columns.draw(r, n);
-        columns.set_normals(n, |p| self.normal_at(prim, flat, p));
+        if self.mesh.n.is_empty() {
+            columns.set_normal(n, flat.n);
+        } else {
+            columns.set_normals(n, |p| self.normal_at(prim, flat, p));
+        }
         Some(flat.p_error_of_samples())
     }
     /// Density per steradian of [`sample_from`](Self::sample_from) for a direction that met the patch at `hit_p`

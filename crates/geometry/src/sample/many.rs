@@ -86,6 +86,10 @@ impl SampleColumns<'_> {
     pub(crate) fn draw(&mut self, shape: &impl Draw, n: usize) {
         in_lanes(Many { shape, columns: self, n });
     }
+    /// Writes the normal that the first `n` points have in common.
+    pub(crate) fn set_normal(&mut self, n: usize, normal: Vec3<f32>) {
+        self.on.iter_mut().zip(normal.to_array()).for_each(|(column, x)| column[..n].fill(x));
+    }
     /// Writes the normal at each of the first `n` points that were drawn, from the point.
     pub(crate) fn set_normals(&mut self, n: usize, normal_at: impl Fn(Vec3<f32>) -> Vec3<f32>) {
         for k in 0..n {
