@@ -164,7 +164,7 @@ fn rows_go_to_their_places() {
     }
     let rows = || Rows { table: &table, from: &from, to: &to };
     assert_eq!(in_lanes(rows()), expected);
-    assert_eq!(only_in_lanes(rows()).unwrap_or_else(|rows| in_lanes(rows)), expected);
+    assert_eq!(only_in_lanes(rows()).unwrap_or_else(in_lanes), expected);
     assert_eq!(rows().run::<Lanes<8>>(), expected);
     assert_eq!(rows().run::<f32>(), expected);
 }
