@@ -161,12 +161,12 @@ impl InLanes for Rays<'_> {
 }
 
 /// Writes rays without end to their places.
-pub(super) struct PutRays<'a> {
-    pub(super) o: &'a [Column; 3],
-    pub(super) d: &'a [Column; 3],
-    pub(super) time: &'a Column,
-    pub(super) rays: &'a mut [[f32; 8]],
-    pub(super) places: &'a [u32],
+struct PutRays<'a> {
+    o: &'a [Column; 3],
+    d: &'a [Column; 3],
+    time: &'a Column,
+    rays: &'a mut [[f32; 8]],
+    places: &'a [u32],
 }
 
 impl InLanes for PutRays<'_> {
