@@ -30,6 +30,11 @@ pub(super) fn key(material: u32, regularized: bool) -> u32 {
     2 * material + u32::from(regularized)
 }
 
+/// The key, behind all others, of paths that meet surfaces of no material.
+pub(super) fn passes(scene: &Scene) -> u32 {
+    2 * scene.n_materials() as u32
+}
+
 /// Vertices of one material.
 #[derive(Default)]
 pub(super) struct Batch {

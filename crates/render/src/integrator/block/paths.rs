@@ -149,6 +149,21 @@ impl<'a, R: Record + Default> Paths<'a, R> {
         self.record.push(R::default());
     }
 
+    /// Forgets all paths.
+    pub(super) fn clear(&mut self) {
+        self.place.clear();
+        self.sampler.clear();
+        self.lambda.clear();
+        self.ray.clear();
+        self.l.clear();
+        self.carried.clear();
+        self.behind.clear();
+        self.steps.clear();
+        self.way.clear();
+        self.family.clear();
+        self.record.clear();
+    }
+
     /// Puts the last path in the place of one that has ended.
     pub(super) fn remove(&mut self, i: usize) {
         self.place.swap_remove(i);
