@@ -53,7 +53,7 @@ impl LightSamples {
     pub(super) fn sample(
         &mut self,
         scene: &Scene,
-        lambda: &[Wavelengths],
+        lambda: impl Fn(u32) -> Wavelengths,
         vertices: &Vertices,
         (choice, u): (&Column, &[Column; 2]),
     ) -> usize {
@@ -80,7 +80,7 @@ impl LightSamples {
             self.chosen.hand_over(n, Found { end, wi, radiance, probability, pdf });
         }
         for (light, which) in by_light.parts(BATCH).filter(|part| !beside(part)) {
-            self.one_by_one(scene, (light, which), (lambda, vertices), u);
+            self.one_by_one(scene, (light, which), (&lambda, vertices), u);
         }
         let n = if by_light.is_empty() { 0 } else { n };
         self.by_light = by_light;
@@ -109,12 +109,12 @@ impl LightSamples {
         &mut self,
         scene: &Scene,
         (light, which): (u32, &[u32]),
-        (lambda, vertices): (&[Wavelengths], &Vertices),
+        (lambda, vertices): (&impl Fn(u32) -> Wavelengths, &Vertices),
         u: &[Column; 2],
     ) {
         for k in which.iter().map(|k| *k as usize) {
             let (at, u) = (vertices.lit_point(k), [u[0][k], u[1][k]]);
-            let w = &lambda[vertices.paths()[k] as usize];
+            let w = &lambda(vertices.paths()[k]);
             match scene.lights().sample(scene.geometry(), light, &at, u, w) {
                 Some(s) => self.put(k, &s),
                 None => self.pdf[k] = 0.0,

@@ -194,12 +194,12 @@ impl<'a, R: Record + Default> Block<'a, R> {
                 Some(hit) => Some(scene.geometry().surface(&paths.ray[i], hit)),
                 None => None,
             };
-            let (beta, last, lambda) = (paths.beta(i), paths.last(i), &paths.lambda[i]);
+            let (beta, last, lambda) = (paths.beta(i), paths.last(i), &paths.lambda(i));
             let by = paths.steps[i].depth.checked_sub(1).map_or(Finder::Camera, Finder::Bsdf);
             let record = &mut paths.record[i];
             let found = |light, w| record.found(by, beta * light, w);
-            paths.l[i] +=
-                beta * scene.emitted(&paths.ray[i], point.as_ref(), last.as_ref(), how.mis, lambda, found);
+            let l = scene.emitted(&paths.ray[i], point.as_ref(), last.as_ref(), how.mis, lambda, found);
+            paths.add(i, beta * l);
         }
         if let Some(around) = around {
             self.escapes.find(scene, how, around, paths);
@@ -232,7 +232,7 @@ impl<'a, R: Record + Default> Block<'a, R> {
         let Block { paths, ended, families, colours, .. } = self;
         colours.measure(&tile.plan.sensor, paths, ended, |i, rgb| {
             if tile.how.splits == 1 {
-                tile.take_rgb(paths.place[i], rgb, &paths.lambda[i], &paths.record[i]);
+                tile.take_rgb(paths.place[i], rgb, &paths.lambda(i), &paths.record[i]);
             } else if let Some((place, parts)) = families.take(paths.family[i], paths.way[i], rgb) {
                 tile.take_parts(place, parts);
             }
