@@ -174,7 +174,7 @@ impl Batch {
     }
 
     /// Hands over what arrives from the light samples, by way of shadow rays.
-    pub(super) fn direct<R>(&mut self, how: &PathIntegrator, paths: &Paths<'_, R>, shadows: &mut Shadows) {
+    pub(super) fn direct(&mut self, how: &PathIntegrator, shadows: &mut Shadows) {
         let (n, columns) = (self.n_lit, &mut *self.columns);
         if n == 0 {
             return;
@@ -187,7 +187,7 @@ impl Batch {
         if let Some(kind) = self.kind {
             columns.f_cos_pdf(kind, &self.vertices.nm, padded(n));
         }
-        shadows.push(how, &self.vertices, &self.lights, (&columns.f_cos, &columns.pdf), (n, paths));
+        shadows.push(how, &self.vertices, &self.lights, (&columns.f_cos, &columns.pdf), n);
     }
 
     /// The next direction of each path; the path is among those `ended` where there is none, or where roulette says so.

@@ -18,7 +18,7 @@ use crate::scene::Scene;
 struct Pending {
     path: u32,
     /// Scattering events before this vertex.
-    depth: u32,
+    depth: f32,
     weight: f32,
 }
 
@@ -53,13 +53,13 @@ struct Columns {
 impl Shadows {
     /// Takes over the light samples of the first `n` vertices that the BSDF scatters to the viewer; it does so by `f_cos`, and draws
     /// these directions with density `pdf`.
-    pub(super) fn push<R>(
+    pub(super) fn push(
         &mut self,
         how: &PathIntegrator,
         vertices: &Vertices,
         lights: &LightSamples,
         (f_cos, pdf): (&[Column; N_LAMBDA], &Column),
-        (n, paths): (usize, &Paths<'_, R>),
+        n: usize,
     ) {
         let out = &mut *self.columns;
         in_lanes(Arrive { n: padded(n), mis: how.mis, vertices, lights, f_cos, pdf, out });
@@ -71,13 +71,17 @@ impl Shadows {
         }
         let first = self.n;
         self.places.clear();
-        for (k, &path) in vertices.paths()[..n].iter().enumerate() {
-            // What is not lit is overwritten by the next.
-            self.places.push((self.n - first) as u32);
-            self.pending[self.n] =
-                Pending { path, depth: paths.steps[path as usize].depth, weight: out.weight[k] };
-            self.n += usize::from(out.lit[k] > 0.0);
+        self.places.resize(n, 0);
+        // What is not lit is overwritten by the next.
+        let (mut next, pending) = (0, &mut self.pending[first..room]);
+        let seen = vertices.paths()[..n].iter().zip(&vertices.depth[..n]);
+        let brought = out.weight[..n].iter().zip(&out.lit[..n]);
+        for (((&path, &depth), (&weight, &lit)), place) in seen.zip(brought).zip(&mut self.places) {
+            *place = next;
+            pending[next as usize] = Pending { path, depth, weight };
+            next += u32::from(lit > 0.0);
         }
+        self.n += next as usize;
         let (rays, arrives) = (Ray::rows_mut(&mut self.rays[first..]), &mut self.arrives[first..]);
         in_lanes(Ask { columns: out, time: &vertices.time, places: &self.places, rays, arrives });
     }
@@ -90,7 +94,7 @@ impl Shadows {
             self.pending.iter().zip(&self.arrives).zip(&self.occluded).filter(|(_, occluded)| !**occluded);
         for ((p, [a, b, c, d, unweighted @ ..]), _) in arrived {
             let i = p.path as usize;
-            paths.record[i].found(Finder::Light(p.depth), Spectrum(*unweighted), p.weight);
+            paths.record[i].found(Finder::Light(p.depth as u32), Spectrum(*unweighted), p.weight);
             paths.add(i, Spectrum([*a, *b, *c, *d]));
         }
         n as u64
