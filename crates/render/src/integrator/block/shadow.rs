@@ -51,35 +51,35 @@ struct Columns {
 }
 
 impl Shadows {
-    /// Takes over the light samples of the first `n` vertices that the BSDF scatters to the viewer; it does so by `f_cos`, and draws
-    /// these directions with density `pdf`.
+    /// Takes over the light samples of vertices that the BSDF scatters to the viewer; it does so by `f_cos`, and draws these directions
+    /// with density `pdf`. Rays to one light follow each other.
     pub(super) fn push(
         &mut self,
         how: &PathIntegrator,
         vertices: &Vertices,
         lights: &LightSamples,
         (f_cos, pdf): (&[Column; N_LAMBDA], &Column),
-        n: usize,
     ) {
-        let out = &mut *self.columns;
+        let (n, out) = (vertices.len(), &mut *self.columns);
         in_lanes(Arrive { n: padded(n), mis: how.mis, vertices, lights, f_cos, pdf, out });
-        let room = self.n + n;
+        // The last place is for what is not lit.
+        let (first, nowhere) = (self.n, n as u32);
+        let room = first + n + 1;
         if room > self.rays.len() {
             self.rays.resize(room, Ray::new(vec3(0.0, 0.0, 0.0), vec3(0.0, 0.0, 0.0)));
             self.arrives.resize(room, [0.0; 8]);
             self.pending.resize(room, Pending::default());
         }
-        let first = self.n;
         self.places.clear();
-        self.places.resize(n, 0);
-        // What is not lit is overwritten by the next.
+        self.places.resize(n, nowhere);
         let (mut next, pending) = (0, &mut self.pending[first..room]);
-        let seen = vertices.paths()[..n].iter().zip(&vertices.depth[..n]);
-        let brought = out.weight[..n].iter().zip(&out.lit[..n]);
-        for (((&path, &depth), (&weight, &lit)), place) in seen.zip(brought).zip(&mut self.places) {
-            *place = next;
-            pending[next as usize] = Pending { path, depth, weight };
-            next += u32::from(lit > 0.0);
+        for k in lights.order.iter().map(|k| *k as usize) {
+            if out.lit[k] > 0.0 {
+                self.places[k] = next;
+                let path = vertices.paths()[k];
+                pending[next as usize] = Pending { path, depth: vertices.depth[k], weight: out.weight[k] };
+                next += 1;
+            }
         }
         self.n += next as usize;
         let (rays, arrives) = (Ray::rows_mut(&mut self.rays[first..]), &mut self.arrives[first..]);
