@@ -37,6 +37,7 @@ use super::{Exposed, Finder, PathIntegrator, RayCounts, Record};
 use crate::observe::TileObserver;
 use crate::plan::RenderPlan;
 use crate::sampler::Sampler;
+use crate::samples::Samples;
 use crate::scene::Scene;
 
 /// Paths under way at once: enough to fill the lanes of several materials, few enough for the second cache.
@@ -82,12 +83,12 @@ impl<R: Record + Default> Default for Block<'_, R> {
 }
 
 impl<'a, R: Record + Default> Block<'a, R> {
-    /// Follows a path from each of `samples`, a pixel and a number, and hands its light to `tile`. Says how many rays that took.
+    /// Follows a path from each of `samples` and hands its light to `tile`. Says how many rays that took.
     pub(crate) fn render<T: TileObserver<Record = R>>(
         &mut self,
         scene: &Scene,
         sampler: &'a Sampler,
-        samples: &mut impl Iterator<Item = ([u32; 2], u32)>,
+        samples: &mut Samples,
         tile: &mut Exposed<'_, T>,
     ) -> RayCounts {
         let how = tile.how;
@@ -122,12 +123,12 @@ impl<'a, R: Record + Default> Block<'a, R> {
         plan: &RenderPlan,
         how: &PathIntegrator,
         sampler: &'a Sampler,
-        samples: &mut impl Iterator<Item = ([u32; 2], u32)>,
+        samples: &mut Samples,
     ) -> bool {
         let Block { fresh, paths, families, ended, begun: [places, of], rays, .. } = self;
         let most = if scene.geometry().is_small() { N_PATHS_OF_ROOM } else { N_PATHS };
         let mut room = most.saturating_sub(paths.len() - ended.len()) / how.splits as usize;
-        while room > 0 && fresh.draw(scene, sampler, plan, &mut samples.take(room)) {
+        while room > 0 && fresh.draw(scene, sampler, plan, samples, room) {
             let n = fresh.len();
             places.clear();
             places.extend(ended.drain(ended.len().saturating_sub(n)..).rev());
