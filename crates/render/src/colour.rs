@@ -49,11 +49,22 @@ impl Carrier {
         }
     }
 
-    /// [`wavelengths`](Self::wavelengths) of each of `u`, added to `out`.
-    pub(crate) fn wavelengths_many(self, u: &[f32], out: &mut Vec<Wavelengths>) {
+    /// [`wavelengths`](Self::wavelengths) of each of the first `n` of `u`: in nm, and their densities. The columns are as long as `n`,
+    /// rounded up to whole registers.
+    pub(crate) fn wavelengths_many(
+        self,
+        u: &[f32],
+        n: usize,
+        mut nm: [&mut [f32]; N_LAMBDA],
+        mut pdf: [&mut [f32]; N_LAMBDA],
+    ) {
         match self {
-            Carrier::Wavelengths => Wavelengths::sample_visible_many(u, out),
-            Carrier::Rgb(_) => out.extend(u.iter().map(|&u| self.wavelengths(u))),
+            Carrier::Wavelengths => Wavelengths::sample_visible_many(u, n, nm, pdf),
+            Carrier::Rgb(_) => {
+                let same = self.wavelengths(0.0);
+                nm.iter_mut().zip(same.lambda).for_each(|(column, x)| column[..n].fill(x));
+                pdf.iter_mut().zip(same.pdf).for_each(|(column, x)| column[..n].fill(x));
+            }
         }
     }
 

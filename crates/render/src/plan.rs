@@ -55,9 +55,16 @@ impl FilmSensor {
         self.carrier.wavelengths(u)
     }
 
-    /// [`wavelengths`](Self::wavelengths) of each of `u`, added to `out`.
-    pub(crate) fn wavelengths_many(&self, u: &[f32], out: &mut Vec<Wavelengths>) {
-        self.carrier.wavelengths_many(u, out);
+    /// [`wavelengths`](Self::wavelengths) of each of the first `n` of `u`: in nm, and their densities. The columns are as long as `n`,
+    /// rounded up to whole registers.
+    pub(crate) fn wavelengths_many(
+        &self,
+        u: &[f32],
+        n: usize,
+        nm: [&mut [f32]; N_LAMBDA],
+        pdf: [&mut [f32]; N_LAMBDA],
+    ) {
+        self.carrier.wavelengths_many(u, n, nm, pdf);
     }
 
     /// Linear RGB of the output colour space, for one sample.

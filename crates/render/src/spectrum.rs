@@ -5,8 +5,8 @@ use std::sync::Arc;
 use sparrow_math::{InLanes, Real, in_lanes};
 use sparrow_scene::SpectrumDesc;
 use sparrow_spectra::{
-    DenseSpectrum, LAMBDA_MIN, N_LAMBDA, RgbRole, Sigmoid, Spectrum, Wavelengths, blackbody_normalized,
-    named_spectrum, photometric, rgb_spectrum_exact,
+    DenseSpectrum, N_LAMBDA, RgbRole, Sigmoid, Spectrum, Wavelengths, blackbody_normalized, named_spectrum,
+    photometric, rgb_spectrum_exact, table_index,
 };
 
 /// A spectrum ready for lookup at a path's wavelengths.
@@ -144,7 +144,7 @@ impl InLanes for FillSigmoid<'_> {
 /// The value of a [`DenseSpectrum`] at `nm`: that of the nearest whole nanometre, as [`Wavelengths`] has it.
 #[inline(always)]
 pub(crate) fn dense_at<R: Real>(table: &[f32], nm: R) -> R {
-    (nm - R::of(f64::from(LAMBDA_MIN)) + R::of(0.5)).look_up(table)
+    table_index(nm).look_up(table)
 }
 
 struct FillDense<'a> {

@@ -35,7 +35,7 @@ pub use rgb::{RgbRole, RgbSpectrum, fit_sigmoid, rgb_spectrum, rgb_spectrum_exac
 pub use sampled::{N_LAMBDA, Spectrum};
 pub use sensor::Sensor;
 pub use sigmoid::Sigmoid;
-pub use wavelengths::{Wavelengths, visible_pdf};
+pub use wavelengths::{Wavelengths, table_index, visible_pdf};
 
 /// The shortest wavelength, in nm.
 pub const LAMBDA_MIN: f32 = 360.0;

@@ -28,19 +28,10 @@ impl Wavelengths {
         Self::with_pdf(lambda, pdf)
     }
 
-    /// [`sample_visible`](Self::sample_visible) of each of `u`, to the bit, in lanes; adds them to `out`.
-    pub fn sample_visible_many(u: &[f32], out: &mut Vec<Self>) {
-        for u in u.chunks(CHUNK) {
-            let mut columns = Columns::default();
-            columns.u[..u.len()].copy_from_slice(u);
-            in_lanes(Draw(Visible::get(), &mut columns));
-            let Columns { lambda, pdf, index, .. } = &columns;
-            out.extend((0..u.len()).map(|i| Self {
-                lambda: [lambda[0][i], lambda[1][i], lambda[2][i], lambda[3][i]],
-                pdf: [pdf[0][i], pdf[1][i], pdf[2][i], pdf[3][i]],
-                index: [index[0][i], index[1][i], index[2][i], index[3][i]],
-            }));
-        }
+    /// [`sample_visible`](Self::sample_visible) of each of the first `n` of `u`, to the bit, in lanes: wavelengths in nm and their
+    /// densities in 1/nm. All columns are as long as `n`, rounded up to whole registers.
+    pub fn sample_visible_many(u: &[f32], n: usize, nm: [&mut [f32]; N_LAMBDA], pdf: [&mut [f32]; N_LAMBDA]) {
+        in_lanes(Draw { density: Visible::get(), u, n, nm, pdf });
     }
 
     /// Four equidistant wavelengths, the first uniform over the whole range.
@@ -87,10 +78,15 @@ impl Wavelengths {
     }
 }
 
-/// The whole nanometre nearest to a wavelength of the range, less 360.
+/// Where a dense table holds a wavelength of the range: the whole part is the nearest whole nanometre less 360.
+#[inline(always)]
+pub fn table_index<R: Real>(lambda: R) -> R {
+    lambda - R::of(f64::from(LAMBDA_MIN)) + R::of(0.5)
+}
+
 #[inline(always)]
 fn nearest(lambda: f32) -> u16 {
-    (lambda - LAMBDA_MIN + 0.5) as u16
+    table_index(lambda) as u16
 }
 
 /// Wavelengths from `u + i/4`, wrapped, and their densities.
@@ -105,42 +101,31 @@ fn visible<R: Real>(density: &Visible, u: R) -> ([R; N_LAMBDA], [R; N_LAMBDA]) {
     (lambda, pdf)
 }
 
-/// Paths whose wavelengths are drawn together.
-const CHUNK: usize = 64;
-
-/// Uniform numbers, and what is drawn from them.
-struct Columns {
-    u: [f32; CHUNK],
-    lambda: [[f32; CHUNK]; N_LAMBDA],
-    pdf: [[f32; CHUNK]; N_LAMBDA],
-    index: [[u16; CHUNK]; N_LAMBDA],
+/// Draws many.
+struct Draw<'a> {
+    density: &'a Visible,
+    u: &'a [f32],
+    n: usize,
+    nm: [&'a mut [f32]; N_LAMBDA],
+    pdf: [&'a mut [f32]; N_LAMBDA],
 }
-
-impl Default for Columns {
-    fn default() -> Columns {
-        let (lambda, index) = ([[0.0; CHUNK]; N_LAMBDA], [[0; CHUNK]; N_LAMBDA]);
-        Columns { u: [0.0; CHUNK], lambda, pdf: lambda, index }
-    }
-}
-
-struct Draw<'a>(&'a Visible, &'a mut Columns);
 
 impl InLanes for Draw<'_> {
     type Output = ();
     #[inline(always)]
     fn run<R: Real>(self) {
-        let Draw(density, Columns { u, lambda, pdf, index }) = self;
-        for i in (0..CHUNK).step_by(R::WIDTH) {
-            let (l, p) = visible(density, R::load(u, i));
-            for k in 0..N_LAMBDA {
-                l[k].store(&mut lambda[k], i);
-                p[k].store(&mut pdf[k], i);
-            }
-        }
-        for (index, lambda) in index.iter_mut().zip(lambda) {
-            for (i, l) in index.iter_mut().zip(lambda) {
-                *i = nearest(*l);
-            }
+        let Draw { density, u, n, nm, pdf } = self;
+        let ([nm0, nm1, nm2, nm3], [pdf0, pdf1, pdf2, pdf3]) = (nm, pdf);
+        for i in (0..n).step_by(R::WIDTH) {
+            let ([a, b, c, d], [p, q, r, s]) = visible(density, R::load(u, i));
+            a.store(nm0, i);
+            b.store(nm1, i);
+            c.store(nm2, i);
+            d.store(nm3, i);
+            p.store(pdf0, i);
+            q.store(pdf1, i);
+            r.store(pdf2, i);
+            s.store(pdf3, i);
         }
     }
 }
@@ -189,10 +174,19 @@ mod tests {
     #[test]
     fn many_are_drawn_as_one_by_one() {
         let u: Vec<f32> =
-            (0..1000).map(|i| i as f32 / 1000.0).chain([sparrow_math::ONE_MINUS_EPSILON]).collect();
-        let mut many = Vec::new();
-        Wavelengths::sample_visible_many(&u, &mut many);
-        assert_eq!(many, u.iter().map(|&u| Wavelengths::sample_visible(u)).collect::<Vec<_>>());
+            (0..991).map(|i| i as f32 / 991.0).chain([sparrow_math::ONE_MINUS_EPSILON; 17]).collect();
+        let (mut nm, mut pdf) = ([[0.0; 1008]; N_LAMBDA], [[0.0; 1008]; N_LAMBDA]);
+        let n = 992;
+        Wavelengths::sample_visible_many(
+            &u,
+            n,
+            nm.each_mut().map(|c| &mut c[..]),
+            pdf.each_mut().map(|c| &mut c[..]),
+        );
+        for (i, &u) in u[..n].iter().enumerate() {
+            let many = Wavelengths::with_pdf(nm.map(|c| c[i]), pdf.map(|c| c[i]));
+            assert_eq!(many, Wavelengths::sample_visible(u));
+        }
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! Eight lights or groups of lights, weighed at once in lanes.
 
-use sparrow_math::{Real, Vec3, vec3};
+use sparrow_math::{Mask, Real, Vec3, vec3};
 
 use super::LitPoint;
 use super::bounds::LightBounds;
@@ -27,6 +27,8 @@ pub(super) struct Eight {
     /// Ball around the bounds.
     center: [Column; 3],
     radius: Column,
+    /// Reciprocal of the square of that.
+    near: Column,
     /// Cone of normals.
     axis: [Column; 3],
     cos_normals: Column,
@@ -64,6 +66,7 @@ impl Eight {
         let (sin, cos) = Real::sin_cos(b.cone.normals.min(core::f64::consts::PI));
         self.power[i] = b.power;
         self.radius[i] = b.bounds.radius();
+        self.near[i] = 1.0 / (self.radius[i] * self.radius[i]).max(1e-30);
         (self.cos_normals[i], self.sin_normals[i]) = (cos as f32, sin as f32);
         self.cos_emission[i] = Real::cos((b.cone.emission + MARGIN).min(core::f64::consts::PI)) as f32;
         self.two_sided[i] = f32::from(u8::from(b.cone.two_sided));
@@ -94,6 +97,7 @@ impl Eight {
             power: of(&self.power),
             center: vec3(of(x), of(y), of(z)),
             radius: of(&self.radius),
+            near: of(&self.near),
             axis: vec3(of(ax), of(ay), of(az)),
             normals: (of(&self.cos_normals), of(&self.sin_normals)),
             cos_emission: of(&self.cos_emission),
@@ -107,6 +111,7 @@ pub(super) struct Bounds<R> {
     power: R,
     center: Vec3<R>,
     radius: R,
+    near: R,
     axis: Vec3<R>,
     normals: Turn<R>,
     cos_emission: R,
@@ -127,19 +132,31 @@ impl<R: Real> Bounds<R> {
         let sin_ball = (radius * inv).min(R::ONE);
         let ball = ((R::ONE - sin_ball * sin_ball).safe_sqrt(), sin_ball);
 
-        let cos = -self.axis.dot(d);
-        let cos = R::select(self.two_sided.gt(R::ZERO), cos.abs(), cos);
-        let (emits, _) = less(less(turn(cos), self.normals), ball);
+        let emits = self.emits(d, ball);
         let (receives, _) = less(turn(n.dot(d).abs()), ball);
         let least = R::of(LEAST_COSINE);
         let far = emits.max(least) * receives.max(least) * (inv * inv);
         // Within the ball nothing is known of distance and angle.
         let within = d2.le(r2);
-        let near = R::ONE / r2.max(R::of(1e-30));
+        let near = self.near;
 
         let shines = power.gt(R::ZERO) & (within | emits.ge(self.cos_emission));
         let weight = (power * R::select(within, near, far)).clamp(R::of(LEAST), R::of(MOST));
         R::select(shines, weight, R::ZERO)
+    }
+
+    /// Largest cosine of light to its normal, seen along `d` in a `ball` of that angle.
+    #[inline(always)]
+    fn emits(&self, d: Vec3<R>, ball: Turn<R>) -> R {
+        // Some normal points everywhere: the usual case of balls and of what is far from flat.
+        let all = self.normals.0.le(R::of(-1.0));
+        if all.all() {
+            return R::ONE;
+        }
+        let cos = -self.axis.dot(d);
+        let cos = R::select(self.two_sided.gt(R::ZERO), cos.abs(), cos);
+        let (emits, _) = less(less(turn(cos), self.normals), ball);
+        R::select(all, R::ONE, emits)
     }
 }
 

@@ -1,10 +1,10 @@
 //! Few lights, each weighed for every point: [`FewLights`].
 
-use sparrow_math::{InLanes, Mask, Real, in_lanes, vec3};
+use sparrow_math::{InLanes, MAX_WIDTH, Mask, Real, in_lanes, vec3};
 
-use super::LitPoint;
 use super::bounds::LightBounds;
 use super::eight::{EIGHT, Eight};
+use super::{LitPoint, NO_LIGHT};
 
 /// Most lights for which every choice weighs each of them.
 pub(super) const WEIGH_ALL: usize = 64;
@@ -34,6 +34,8 @@ impl LitPoints<'_> {
 #[derive(Debug)]
 pub(super) struct FewLights {
     lights: Vec<u32>,
+    /// The bits of their numbers, and behind them of [`NO_LIGHT`], as lanes look them up.
+    labels: Vec<f32>,
     bounds: Vec<Eight>,
 }
 
@@ -47,7 +49,9 @@ impl FewLights {
         for (i, (_, b)) in lights.iter().enumerate() {
             bounds[i / EIGHT].set(i % EIGHT, b);
         }
-        FewLights { lights: lights.iter().map(|l| l.0).collect(), bounds }
+        let lights: Vec<u32> = lights.iter().map(|l| l.0).collect();
+        let labels = lights.iter().copied().chain([NO_LIGHT]).map(f32::from_bits).collect();
+        FewLights { lights, labels, bounds }
     }
 
     /// A light and its probability, by the uniform number `u`; none where nothing shines.
@@ -60,9 +64,10 @@ impl FewLights {
         (share > 0.0).then(|| (self.lights[place as usize], share))
     }
 
-    /// [`choose`](Self::choose) for each of `points`, to the bit, in lanes.
-    pub(super) fn choose_many(&self, points: &LitPoints<'_>, put: impl FnMut(usize, Option<(u32, f32)>)) {
-        in_lanes(Choose { few: self, points, put });
+    /// [`choose`](Self::choose) for each of `points`, to the bit, in lanes; [`NO_LIGHT`] where nothing shines. The columns are as long as
+    /// those of the points.
+    pub(super) fn choose_many(&self, points: &LitPoints<'_>, light: &mut [u32], probability: &mut [f32]) {
+        in_lanes(Choose { few: self, points, light, probability });
     }
 
     pub(super) fn probability(&self, at: &LitPoint, light: u32) -> f32 {
@@ -74,7 +79,7 @@ impl FewLights {
     }
 }
 
-/// Chooses one of the weights: its place and its share, which is zero where no weight is positive.
+/// Chooses one of the weights: its place and its share; where no weight is positive the place behind the last, and zero.
 #[inline(always)]
 fn pick<R: Real>(weights: &[R], u: R) -> (R, R) {
     let mut total = R::ZERO;
@@ -82,11 +87,12 @@ fn pick<R: Real>(weights: &[R], u: R) -> (R, R) {
         total = total + w;
     }
     let (mut left, mut open) = (u * total, R::Mask::of(true));
-    let (mut place, mut own) = (R::ZERO, R::ZERO);
-    for (i, &w) in weights.iter().enumerate() {
+    let (mut i, mut place, mut own) = (R::ZERO, R::of(weights.len() as f64), R::ZERO);
+    for &w in weights {
         // Rounding may leave a little beyond the last one, which then takes it.
         let here = open & w.gt(R::ZERO);
-        place = R::select(here, R::of(i as f64), place);
+        place = R::select(here, i, place);
+        i = i + R::ONE;
         own = R::select(here, w, own);
         open = open & !(here & left.lt(w));
         left = R::select(here, left - w, left);
@@ -108,19 +114,21 @@ impl InLanes for Weigh<'_> {
 }
 
 /// Chooses for many points, points in lanes.
-struct Choose<'a, P> {
+struct Choose<'a> {
     few: &'a FewLights,
     points: &'a LitPoints<'a>,
-    put: P,
+    light: &'a mut [u32],
+    probability: &'a mut [f32],
 }
 
-impl<P: FnMut(usize, Option<(u32, f32)>)> InLanes for Choose<'_, P> {
+impl InLanes for Choose<'_> {
     type Output = ();
     #[inline(always)]
-    fn run<R: Real>(mut self) {
-        let (LitPoints { p, n, u, n_points }, bounds) = (self.points, &self.few.bounds);
-        let n_lights = self.few.lights.len().min(WEIGH_ALL);
+    fn run<R: Real>(self) {
+        let (LitPoints { p, n, u, n_points }, FewLights { lights, labels, bounds }) = (self.points, self.few);
+        let n_lights = lights.len().min(WEIGH_ALL);
         let mut weights = [R::ZERO; WEIGH_ALL];
+        let mut chosen = [0.0; MAX_WIDTH];
         for k in (0..*n_points).step_by(R::WIDTH) {
             let p = vec3(R::load(p[0], k), R::load(p[1], k), R::load(p[2], k));
             let n = vec3(R::load(n[0], k), R::load(n[1], k), R::load(n[2], k));
@@ -128,10 +136,10 @@ impl<P: FnMut(usize, Option<(u32, f32)>)> InLanes for Choose<'_, P> {
                 *weight = bounds[i / EIGHT].spread::<R>(i).importance(p, n);
             }
             let (place, share) = pick(&weights[..n_lights], R::load(u, k));
-            let (place, share) = (place.to_doubles(), share.to_doubles());
-            for j in 0..R::WIDTH.min(n_points - k) {
-                (self.put)(k + j, self.few.chosen((place[j] as f32, share[j] as f32)));
-            }
+            share.store(self.probability, k);
+            place.look_up(labels).store(&mut chosen, 0);
+            let chosen = chosen[..R::WIDTH].iter().map(|label| label.to_bits());
+            self.light[k..].iter_mut().zip(chosen).for_each(|(light, chosen)| *light = chosen);
         }
     }
 }

@@ -199,10 +199,10 @@ impl Lights {
     pub fn choose(&self, at: &LitPoint, u: f32) -> Option<(u32, f32)> {
         self.selection.choose(at, u)
     }
-    /// [`choose`](Self::choose) for each of `points`, to the bit.
+    /// [`choose`](Self::choose) for each of `points`, to the bit: the index, or [`NO_LIGHT`], and the probability, else zero.
     #[inline]
-    pub(crate) fn choose_many(&self, points: &LitPoints<'_>, put: impl FnMut(usize, Option<(u32, f32)>)) {
-        self.selection.choose_many(points, put);
+    pub(crate) fn choose_many(&self, points: &LitPoints<'_>, light: &mut [u32], probability: &mut [f32]) {
+        self.selection.choose_many(points, light, probability);
     }
     /// The light that [`choose`](Self::choose) picks everywhere, where there is no other.
     pub(crate) fn only(&self) -> Option<u32> {

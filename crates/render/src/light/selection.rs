@@ -1,9 +1,9 @@
 //! Choosing one of many lights.
 
-use super::LitPoint;
 use super::bounds::LightBounds;
 use super::few::{FewLights, LitPoints, WEIGH_ALL};
 use super::tree::LightTree;
+use super::{LitPoint, NO_LIGHT};
 use crate::distribution::Discrete;
 
 /// A way to choose a light.
@@ -70,16 +70,20 @@ impl LightSelection {
         }
     }
 
-    /// [`choose`](Self::choose) for each of `points`, to the bit; in lanes, where lights are few and have places.
-    pub(crate) fn choose_many(&self, points: &LitPoints<'_>, mut put: impl FnMut(usize, Option<(u32, f32)>)) {
+    /// [`choose`](Self::choose) for each of `points`, to the bit: the index, or [`NO_LIGHT`], and the probability, else zero. In lanes,
+    /// where lights are few and have places. The columns are as long as those of the points.
+    pub(crate) fn choose_many(&self, points: &LitPoints<'_>, light: &mut [u32], probability: &mut [f32]) {
         match self {
             LightSelection::ByPlace(ByPlace { bounded: Bounded::Few(few), infinite })
                 if infinite.is_empty() =>
             {
-                few.choose_many(points, put);
+                few.choose_many(points, light, probability);
             }
             LightSelection::ByPlace(_) | LightSelection::Fixed(_) | LightSelection::Empty => {
-                (0..points.n_points).for_each(|k| put(k, self.choose(&points.get(k), points.u[k])));
+                for (k, to) in light.iter_mut().zip(probability).take(points.n_points).enumerate() {
+                    let chosen = self.choose(&points.get(k), points.u[k]);
+                    (*to.0, *to.1) = chosen.unwrap_or((NO_LIGHT, 0.0));
+                }
             }
         }
     }
@@ -197,11 +201,13 @@ mod tests {
             u: &u,
             n_points: 37,
         };
-        let mut chosen = Vec::new();
-        s.choose_many(&points, |k, one| chosen.push((k, one)));
-        let alone: Vec<_> = (0..37).map(|k| (k, s.choose(&points.get(k), u[k]))).collect();
+        let (mut light, mut probability) = ([NO_LIGHT; 48], [0.0; 48]);
+        s.choose_many(&points, &mut light, &mut probability);
+        let alone: Vec<_> = (0..37).map(|k| s.choose(&points.get(k), u[k])).collect();
+        let chosen = light.iter().zip(&probability).take(37);
+        let chosen: Vec<_> = chosen.map(|(&l, &share)| (share > 0.0).then_some((l, share))).collect();
         assert_eq!(chosen, alone);
-        let of = |light: u32| chosen.iter().filter(|(_, c)| c.is_some_and(|c| c.0 == light)).count();
+        let of = |light: u32| chosen.iter().filter(|c| c.is_some_and(|c| c.0 == light)).count();
         assert!(of(0) > 3 && of(2) > 3, "{chosen:?}");
     }
 

@@ -30,6 +30,11 @@ pub(super) fn key(material: u32, regularized: bool) -> u32 {
     2 * material + u32::from(regularized)
 }
 
+/// The key, behind all others, of paths that meet surfaces of no material.
+pub(super) fn passes(scene: &Scene) -> u32 {
+    2 * scene.n_materials() as u32
+}
+
 /// Vertices of one material.
 #[derive(Default)]
 pub(super) struct Batch {
@@ -117,7 +122,8 @@ impl Batch {
         }
         numbers.on_light.iter_mut().for_each(|c| pad(c, n));
         pad(&mut numbers.light, n);
-        self.n_lit = self.lights.sample(scene, &paths.lambda, vertices, (&numbers.light, &numbers.on_light));
+        let lambda = |path: u32| paths.lambda(path as usize);
+        self.n_lit = self.lights.sample(scene, lambda, vertices, (&numbers.light, &numbers.on_light));
     }
 
     /// Evaluates the parameters of the material, and turns directions to local frames.
@@ -139,9 +145,9 @@ impl Batch {
                 let Some(hit) = &hits[i] else { continue };
                 let point = vertices.point(k, hit);
                 if self.kind.is_some() {
-                    self.lambda.push(paths.lambda[i]);
+                    self.lambda.push(paths.lambda(i));
                     self.contexts.push(scene.texture_context_of(material, &point));
-                } else if let Some(model) = scene.scatter(&point, &mut paths.lambda[i]) {
+                } else if let Some(model) = scene.scatter(&point, &mut paths.lambda(i)) {
                     self.models.push(if regularized { model.regularized() } else { model });
                 }
             }

@@ -1,18 +1,17 @@
 //! Light that paths found, as the film shows it: [`Colours`].
 
 use sparrow_math::{InLanes, Real, in_lanes};
-use sparrow_spectra::{N_LAMBDA, Spectrum};
+use sparrow_spectra::{Spectrum, table_index};
 
-use super::column::{BATCH, Column, padded, put_spectrum, spectrum};
+use super::column::{BATCH, Column, padded};
 use super::paths::Paths;
 use crate::plan::FilmSensor;
 
-/// What paths found, at which wavelengths, and the colour of it, in columns.
+/// Colours of the light that paths found.
 #[derive(Default)]
 pub(super) struct Colours {
-    l: [Column; N_LAMBDA],
-    pdf: [Column; N_LAMBDA],
-    index: [Column; N_LAMBDA],
+    /// Paths; up to whole registers the last.
+    which: Vec<u32>,
     rgb: [Column; 3],
 }
 
@@ -26,13 +25,11 @@ impl Colours {
         mut give: impl FnMut(usize, [f32; 3]),
     ) {
         for batch in which.chunks(BATCH) {
-            for (k, &i) in batch.iter().enumerate() {
-                let (l, w) = (paths.l[i as usize], &paths.lambda[i as usize]);
-                put_spectrum(&mut self.l, k, l);
-                put_spectrum(&mut self.pdf, k, w.pdf_spectrum());
-                put_spectrum(&mut self.index, k, Spectrum(w.index.map(f32::from)));
-            }
-            in_lanes(Measure { sensor, n: padded(batch.len()), colours: self });
+            self.which.clear();
+            self.which.extend_from_slice(batch);
+            self.which.resize(padded(batch.len()), batch[0]);
+            let Colours { which, rgb } = self;
+            in_lanes(Measure { sensor, which, found: &paths.found, carried: &paths.carried, rgb });
             for (k, &i) in batch.iter().enumerate() {
                 give(i as usize, self.rgb.each_ref().map(|c| c[k]));
             }
@@ -42,21 +39,25 @@ impl Colours {
 
 struct Measure<'a> {
     sensor: &'a FilmSensor,
-    n: usize,
-    colours: &'a mut Colours,
+    which: &'a [u32],
+    found: &'a [[f32; 8]],
+    carried: &'a [[f32; 8]],
+    rgb: &'a mut [Column; 3],
 }
 
 impl InLanes for Measure<'_> {
     type Output = ();
     #[inline(always)]
     fn run<R: Real>(self) {
-        let Colours { l, pdf, index, rgb } = self.colours;
-        for k in (0..self.n).step_by(R::WIDTH) {
-            let (l, pdf, index) = (spectrum::<R>(l, k), spectrum(pdf, k), spectrum::<R>(index, k));
-            let colour = self.sensor.rgb_of(l, pdf, index.0);
-            for (column, c) in rgb.iter_mut().zip(colour) {
-                c.store(&mut column[..], k);
-            }
+        let Measure { sensor, which, found, carried, rgb: [red, green, blue] } = self;
+        for (k, which) in (0..).step_by(R::WIDTH).zip(which.chunks_exact(R::WIDTH)) {
+            let [a, b, c, d, p, q, r, s] = R::gather_rows(found, which);
+            let [.., nm0, nm1, nm2, nm3] = R::gather_rows(carried, which);
+            let index = [table_index(nm0), table_index(nm1), table_index(nm2), table_index(nm3)];
+            let [r, g, b] = sensor.rgb_of(Spectrum([a, b, c, d]), Spectrum([p, q, r, s]), index);
+            r.store(&mut red[..], k);
+            g.store(&mut green[..], k);
+            b.store(&mut blue[..], k);
         }
     }
 }

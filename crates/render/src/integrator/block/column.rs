@@ -33,6 +33,17 @@ impl DerefMut for Column {
     }
 }
 
+/// The places of lanes among themselves.
+pub(super) const LANES: [u32; MAX_WIDTH] = {
+    let mut places = [0; MAX_WIDTH];
+    let mut i = 0;
+    while i < MAX_WIDTH {
+        places[i] = i as u32;
+        i += 1;
+    }
+    places
+};
+
 /// The vertices whose lanes are computed where `n` count: up to whole registers.
 #[inline(always)]
 pub(crate) fn padded(n: usize) -> usize {

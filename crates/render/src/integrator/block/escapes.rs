@@ -1,8 +1,8 @@
 //! Rays that left the scene towards one environment map, in columns: [`Escapes`].
 
-use sparrow_spectra::N_LAMBDA;
+use sparrow_spectra::{N_LAMBDA, Spectrum};
 
-use super::column::{BATCH, Column, put_vector, spectrum};
+use super::column::{BATCH, Column, put_spectrum, put_vector, spectrum};
 use super::paths::Paths;
 use crate::integrator::{Finder, PathIntegrator, Record};
 use crate::light::Environment;
@@ -42,7 +42,8 @@ impl Escapes {
         for which in self.path.chunks(BATCH) {
             for (k, &i) in which.iter().enumerate() {
                 put_vector(d, k, paths.ray[i as usize].d);
-                nm.iter_mut().zip(paths.lambda[i as usize].lambda).for_each(|(column, nm)| column[k] = nm);
+                let [.., a, b, c, d] = paths.carried[i as usize];
+                put_spectrum(nm, k, Spectrum([a, b, c, d]));
             }
             environment.escaped_many(
                 which.len(),
@@ -56,7 +57,8 @@ impl Escapes {
                 let by = paths.steps[i].depth.checked_sub(1).map_or(Finder::Camera, Finder::Bsdf);
                 let found = |light, w| record.found(by, beta * light, w);
                 let l = spectrum(radiance, k);
-                paths.l[i] += beta * scene.weighted((light, l), last.as_ref(), how.mis, |_| pdf[k], found);
+                let l = scene.weighted((light, l), last.as_ref(), how.mis, |_| pdf[k], found);
+                paths.add(i, beta * l);
             }
         }
         self.path.clear();

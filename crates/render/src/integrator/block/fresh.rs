@@ -1,9 +1,9 @@
 //! New paths of a block: [`Fresh`].
 
 use sparrow_math::{InLanes, Real, in_lanes};
-use sparrow_spectra::Wavelengths;
+use sparrow_spectra::N_LAMBDA;
 
-use super::column::{BATCH, Column, load, padded, put_vector, store_vector, vector};
+use super::column::{BATCH, Column, load, padded, put_vector, spectrum, store_vector, vector};
 use crate::camera::Camera;
 use crate::integrator::start::{CameraNumbers, CameraSample, FilmPlace, film_point};
 use crate::plan::RenderPlan;
@@ -16,7 +16,6 @@ use crate::scene::Scene;
 pub(super) struct Fresh<'a> {
     places: Vec<FilmPlace>,
     samplers: Vec<PixelSampler<'a>>,
-    lambda: Vec<Wavelengths>,
     columns: Box<Columns>,
 }
 
@@ -32,6 +31,9 @@ struct Columns {
     weight: Column,
     o: [Column; 3],
     d: [Column; 3],
+    /// Wavelengths in nm, and their densities.
+    nm: [Column; N_LAMBDA],
+    pdf: [Column; N_LAMBDA],
 }
 
 impl<'a> Fresh<'a> {
@@ -47,8 +49,9 @@ impl<'a> Fresh<'a> {
         self.start(sampler, plan, samples, most.min(BATCH));
         let (n, columns) = (self.places.len(), &mut *self.columns);
         columns.fill(sampler, &self.samplers, scene);
-        self.lambda.clear();
-        plan.sensor.wavelengths_many(&columns.wavelength[..n], &mut self.lambda);
+        let (nm, pdf) =
+            (columns.nm.each_mut().map(|c| &mut c[..]), columns.pdf.each_mut().map(|c| &mut c[..]));
+        plan.sensor.wavelengths_many(&columns.wavelength[..], n, nm, pdf);
         if scene.camera.moves() {
             self.one_by_one(scene, plan);
         } else {
@@ -102,14 +105,15 @@ impl<'a> Fresh<'a> {
     pub(super) fn samplers(&self) -> &[PixelSampler<'a>] {
         &self.samplers
     }
-    /// The wavelengths of each.
-    pub(super) fn lambda(&self) -> &[Wavelengths] {
-        &self.lambda
-    }
-    /// Puts their rays to those places.
-    pub(super) fn put_rays(&self, rays: &mut [[f32; 8]], places: &[u32]) {
-        let Columns { o, d, time, .. } = &*self.columns;
-        in_lanes(PutRays { o, d, time, rays, places });
+    /// Puts their rays to those places, what they carry with their wavelengths, and what they have found with the densities of these.
+    pub(super) fn put(
+        &self,
+        places: &[u32],
+        rays: &mut [[f32; 8]],
+        carried: &mut [[f32; 8]],
+        found: &mut [[f32; 8]],
+    ) {
+        in_lanes(Put { columns: &self.columns, places, rays, carried, found });
     }
 }
 
@@ -164,24 +168,27 @@ impl InLanes for Rays<'_> {
     }
 }
 
-/// Writes rays without end to their places.
-struct PutRays<'a> {
-    o: &'a [Column; 3],
-    d: &'a [Column; 3],
-    time: &'a Column,
-    rays: &'a mut [[f32; 8]],
+/// Writes rays without end to their places, and what goes with them.
+struct Put<'a> {
+    columns: &'a Columns,
     places: &'a [u32],
+    rays: &'a mut [[f32; 8]],
+    carried: &'a mut [[f32; 8]],
+    found: &'a mut [[f32; 8]],
 }
 
-impl InLanes for PutRays<'_> {
+impl InLanes for Put<'_> {
     type Output = ();
     #[inline(always)]
     fn run<R: Real>(self) {
-        let PutRays { o, d, time, rays, places } = self;
-        let end = R::of(f64::INFINITY);
+        let Put { columns: Columns { o, d, time, nm, pdf, .. }, places, rays, carried, found } = self;
+        let (end, zero, one) = (R::of(f64::INFINITY), R::ZERO, R::ONE);
         for (k, places) in (0..).step_by(R::WIDTH).zip(places.chunks(R::WIDTH)) {
             let (o, d) = (vector::<R>(o, k), vector::<R>(d, k));
             R::scatter_rows([o.x, o.y, o.z, d.x, d.y, d.z, end, load(time, k)], rays, places);
+            let (nm, pdf) = (spectrum::<R>(nm, k), spectrum::<R>(pdf, k));
+            R::scatter_rows([one, one, one, one, nm[0], nm[1], nm[2], nm[3]], carried, places);
+            R::scatter_rows([zero, zero, zero, zero, pdf[0], pdf[1], pdf[2], pdf[3]], found, places);
         }
     }
 }

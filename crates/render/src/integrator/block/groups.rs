@@ -1,69 +1,45 @@
-//! Vertices put together by what they scatter with: [`Groups`].
+//! What has the same key put together: [`Groups`].
 
-use core::ops::Range;
-
-/// Vertices with the same key stand side by side; keys come in the order of their first vertex.
+/// Numbers put together by their key.
 #[derive(Default)]
 pub(super) struct Groups {
-    /// Key, depth and path of each vertex.
-    vertices: Vec<(u32, u32, u32)>,
-    /// For each key the number of its vertices, later the place of the next one.
-    place: Vec<u32>,
+    of_key: Vec<Vec<u32>>,
+    /// Those that have numbers.
     keys: Vec<u32>,
-    /// Vertices came in the order of their depth.
-    in_order: bool,
-    sorted: Vec<u32>,
-    batches: Vec<(u32, Range<usize>)>,
 }
 
 impl Groups {
-    /// Forgets all vertices; keys are below `n_keys`.
+    /// Forgets all numbers; keys are below `n_keys`.
     pub(super) fn clear(&mut self, n_keys: usize) {
-        self.vertices.clear();
-        self.in_order = true;
-        self.keys.drain(..).for_each(|key| self.place[key as usize] = 0);
-        self.place.resize(n_keys.max(self.place.len()), 0);
+        self.keys.drain(..).for_each(|key| self.of_key[key as usize].clear());
+        self.of_key.resize_with(n_keys.max(self.of_key.len()), Vec::new);
     }
-    /// One more vertex.
-    pub(super) fn push(&mut self, key: u32, depth: u32, path: u32) {
-        let count = &mut self.place[key as usize];
-        if *count == 0 {
+    /// One more number.
+    #[inline(always)]
+    pub(super) fn push(&mut self, key: u32, i: u32) {
+        let group = &mut self.of_key[key as usize];
+        if group.is_empty() {
             self.keys.push(key);
         }
-        *count += 1;
-        self.in_order &= self.vertices.last().is_none_or(|last| last.1 <= depth);
-        self.vertices.push((key, depth, path));
+        group.push(i);
     }
-    /// Sorts them into batches of at most `size`; if asked, with the shallow before the deep.
-    pub(super) fn sort(&mut self, size: usize, by_depth: bool) {
-        if by_depth && !self.in_order {
-            self.vertices.sort_unstable_by_key(|&(_, depth, path)| (depth, path));
-        }
-        let mut next = 0;
-        self.batches.clear();
+    /// There are no numbers.
+    pub(super) fn is_empty(&self) -> bool {
+        self.keys.is_empty()
+    }
+    /// Sorts each group by depth.
+    pub(super) fn sort_by_depth(&mut self, depth: impl Fn(u32) -> u32) {
         for &key in &self.keys {
-            let place = &mut self.place[key as usize];
-            let (start, end) = (next, next + *place as usize);
-            let batch = |first: usize| (key, first..end.min(first + size));
-            self.batches.extend((start..end).step_by(size).map(batch));
-            *place = start as u32;
-            next = end;
-        }
-        self.sorted.resize(self.vertices.len(), 0);
-        for &(key, _, path) in &self.vertices {
-            let place = &mut self.place[key as usize];
-            self.sorted[*place as usize] = path;
-            *place += 1;
+            let group = &mut self.of_key[key as usize];
+            if !group.is_sorted_by_key(|&i| depth(i)) {
+                group.sort_unstable_by_key(|&i| (depth(i), i));
+            }
         }
     }
-    /// Number of batches.
-    pub(super) fn len(&self) -> usize {
-        self.batches.len()
-    }
-    /// The key of a batch, and its paths.
-    pub(super) fn batch(&self, i: usize) -> (u32, &[u32]) {
-        let (key, range) = &self.batches[i];
-        (*key, &self.sorted[range.clone()])
+    /// The groups, those larger than `size` in parts, each with its key; keys come in the order of their first number.
+    pub(super) fn parts(&self, size: usize) -> impl Iterator<Item = (u32, &[u32])> {
+        let parts = move |&key: &u32| self.of_key[key as usize].chunks(size).map(move |part| (key, part));
+        self.keys.iter().flat_map(parts)
     }
 }
 
@@ -72,18 +48,17 @@ mod tests {
     use super::*;
 
     #[test]
-    fn vertices_of_one_key_stand_together_in_the_order_of_depth() {
+    fn numbers_of_one_key_stand_together_in_the_order_of_depth() {
         let mut groups = Groups::default();
-        for round in 0..3 {
+        let depth = |i: u32| [0, 0, 0, 0, 2, 1, 0][i as usize];
+        for _ in 0..3 {
             groups.clear(5);
-            for path in 0..7 {
-                groups.push([3, 1, 3, 4, 1, 3, 3][path], [0, 0, 0, 0, 2, 1, 0][path], path as u32 + round);
+            for (i, key) in (0..).zip([3, 1, 3, 4, 1, 3, 3]) {
+                groups.push(key, i);
             }
-            groups.sort(3, true);
-            let found: Vec<_> = (0..groups.len()).map(|i| groups.batch(i)).collect();
-            let moved = |paths: &[u32]| paths.iter().map(|p| p + round).collect::<Vec<_>>();
-            let (three, rest, one, four) = (moved(&[0, 2, 6]), moved(&[5]), moved(&[1, 4]), moved(&[3]));
-            assert_eq!(found, [(3, &three[..]), (3, &rest[..]), (1, &one[..]), (4, &four[..])]);
+            groups.sort_by_depth(depth);
+            let found: Vec<_> = groups.parts(3).collect();
+            assert_eq!(found, [(3, &[0, 2, 6][..]), (3, &[5]), (1, &[1, 4]), (4, &[3])]);
         }
     }
 }

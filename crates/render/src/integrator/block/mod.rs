@@ -7,6 +7,7 @@
 //! Nothing is allocated for a path: a thread works with one block, whose columns are filled again and again.
 
 mod batch;
+mod chosen;
 mod colours;
 mod column;
 mod escapes;
@@ -20,7 +21,7 @@ mod paths;
 mod shadow;
 mod vertices;
 
-use sparrow_geometry::Hit;
+use sparrow_geometry::{Hit, Ray};
 
 use self::batch::Batch;
 use self::colours::Colours;
@@ -98,8 +99,11 @@ impl<'a, R: Record + Default> Block<'a, R> {
             self.emitted(scene, &how);
             self.branch(scene, tile.plan, &how, sampler);
             self.group(scene, sampler, &how);
-            for i in 0..self.groups.len() {
-                let (key, which) = self.groups.batch(i);
+            for (key, which) in self.groups.parts(BATCH) {
+                if key == batch::passes(scene) {
+                    pass(scene, &mut self.paths.ray, &self.hits, which);
+                    continue;
+                }
                 self.batch.begin(scene, &how, sampler, (&mut self.paths, &self.hits), (key, which));
                 self.batch.sample_lights(scene, &how, &self.paths);
                 self.batch.bind(scene, (&mut self.paths, &self.hits), key);
@@ -141,6 +145,10 @@ impl<'a, R: Record + Default> Block<'a, R> {
             rays.camera += n as u64;
             room -= n;
         }
+        if ended.len() == paths.len() {
+            ended.clear();
+            paths.clear();
+        }
         // From the end, so that what takes the place of a path is under way.
         ended.sort_unstable();
         ended.drain(..).rev().for_each(|i| paths.remove(i as usize));
@@ -175,9 +183,10 @@ impl<'a, R: Record + Default> Block<'a, R> {
     /// Light that the rays found.
     fn emitted(&mut self, scene: &Scene, how: &PathIntegrator) {
         let paths = &mut self.paths;
-        let around = scene.lights().only_environment();
+        let (around, nothing) = (scene.lights().only_environment(), scene.lights().infinite().is_empty());
         for (i, hit) in self.hits.iter().enumerate() {
             let point = match hit {
+                None if nothing => continue,
                 None if around.is_some() => {
                     self.escapes.push(i);
                     continue;
@@ -186,12 +195,12 @@ impl<'a, R: Record + Default> Block<'a, R> {
                 Some(hit) => Some(scene.geometry().surface(&paths.ray[i], hit)),
                 None => None,
             };
-            let (beta, last, lambda) = (paths.beta(i), paths.last(i), &paths.lambda[i]);
+            let (beta, last, lambda) = (paths.beta(i), paths.last(i), &paths.lambda(i));
             let by = paths.steps[i].depth.checked_sub(1).map_or(Finder::Camera, Finder::Bsdf);
             let record = &mut paths.record[i];
             let found = |light, w| record.found(by, beta * light, w);
-            paths.l[i] +=
-                beta * scene.emitted(&paths.ray[i], point.as_ref(), last.as_ref(), how.mis, lambda, found);
+            let l = scene.emitted(&paths.ray[i], point.as_ref(), last.as_ref(), how.mis, lambda, found);
+            paths.add(i, beta * l);
         }
         if let Some(around) = around {
             self.escapes.find(scene, how, around, paths);
@@ -200,27 +209,23 @@ impl<'a, R: Record + Default> Block<'a, R> {
 
     /// Paths end, pass through, or have a vertex: these are put together by material.
     fn group(&mut self, scene: &Scene, sampler: &Sampler, how: &PathIntegrator) {
-        let paths = &mut self.paths;
-        self.groups.clear(2 * scene.n_materials());
-        for (i, hit) in self.hits.iter().enumerate() {
-            let Steps { depth, n_smooth, .. } = paths.steps[i];
+        let Block { paths, groups, ended, hits, .. } = self;
+        let passes = batch::passes(scene);
+        groups.clear(passes as usize + 1);
+        for ((hit, steps), i) in hits.iter().zip(&paths.steps).zip(0..) {
+            let Steps { depth, n_smooth, .. } = *steps;
             let deep = depth == how.max_depth || n_smooth == how.max_smooth;
             let Some(hit) = hit.as_ref().filter(|_| !deep) else {
-                self.ended.push(i as u32);
+                ended.push(i);
                 continue;
             };
-            match scene.material_of(hit.shape) {
-                Some(material) => {
-                    let regularized = how.regularize && n_smooth > 0;
-                    self.groups.push(batch::key(material, regularized), depth, i as u32);
-                }
-                None => {
-                    let ray = &mut paths.ray[i];
-                    *ray = scene.geometry().surface(ray, hit).spawn(ray.d);
-                }
-            }
+            let regularized = how.regularize && n_smooth > 0;
+            let material = scene.material_of(hit.shape);
+            groups.push(material.map_or(passes, |material| batch::key(material, regularized)), i);
         }
-        self.groups.sort(BATCH, sampler.has_tables());
+        if sampler.has_tables() {
+            groups.sort_by_depth(|i| paths.steps[i as usize].depth);
+        }
     }
 
     /// Hands over the light of paths that have ended, whose places are free.
@@ -228,10 +233,19 @@ impl<'a, R: Record + Default> Block<'a, R> {
         let Block { paths, ended, families, colours, .. } = self;
         colours.measure(&tile.plan.sensor, paths, ended, |i, rgb| {
             if tile.how.splits == 1 {
-                tile.take_rgb(paths.place[i], rgb, &paths.lambda[i], &paths.record[i]);
+                tile.take_rgb(paths.place[i], rgb, &paths.lambda(i), &paths.record[i]);
             } else if let Some((place, parts)) = families.take(paths.family[i], paths.way[i], rgb) {
                 tile.take_parts(place, parts);
             }
         });
+    }
+}
+
+/// Rays go on behind surfaces of no material.
+fn pass(scene: &Scene, rays: &mut [Ray], hits: &[Option<Hit>], which: &[u32]) {
+    for i in which.iter().map(|i| *i as usize) {
+        if let (ray, Some(hit)) = (&mut rays[i], &hits[i]) {
+            *ray = scene.geometry().surface(ray, hit).spawn(ray.d);
+        }
     }
 }

@@ -35,9 +35,9 @@ impl Steps {
 pub(super) struct Paths<'a, R> {
     pub(super) place: Vec<FilmPlace>,
     pub(super) sampler: Vec<PixelSampler<'a>>,
-    pub(super) lambda: Vec<Wavelengths>,
     pub(super) ray: Vec<Ray>,
-    pub(super) l: Vec<Spectrum<f32>>,
+    /// Light that the path has found, and the densities of its wavelengths.
+    pub(super) found: Vec<[f32; 8]>,
     /// What the path carries, and its wavelengths in nm.
     pub(super) carried: Vec<[f32; 8]>,
     /// The last vertex: its place, the density of the direction taken or [`NO_DENSITY`], and its shading normal.
@@ -55,9 +55,8 @@ impl<R> Default for Paths<'_, R> {
         Paths {
             place: Vec::new(),
             sampler: Vec::new(),
-            lambda: Vec::new(),
             ray: Vec::new(),
-            l: Vec::new(),
+            found: Vec::new(),
             carried: Vec::new(),
             behind: Vec::new(),
             steps: Vec::new(),
@@ -87,6 +86,23 @@ impl<R> Paths<'_, R> {
         let [a, b, c, d, ..] = self.carried[i];
         Spectrum([a, b, c, d])
     }
+    /// The wavelengths of path `i`.
+    #[inline(always)]
+    pub(super) fn lambda(&self, i: usize) -> Wavelengths {
+        let ([.., a, b, c, d], [.., p, q, r, s]) = (self.carried[i], self.found[i]);
+        Wavelengths::with_pdf([a, b, c, d], [p, q, r, s])
+    }
+    /// Lets path `i` go on with the hero wavelength alone.
+    pub(super) fn terminate_secondary(&mut self, i: usize) {
+        let mut w = self.lambda(i);
+        w.terminate_secondary();
+        self.found[i][4..].copy_from_slice(&w.pdf);
+    }
+    /// Path `i` has found that light.
+    #[inline(always)]
+    pub(super) fn add(&mut self, i: usize, light: Spectrum<f32>) {
+        self.found[i].iter_mut().zip(light.0).for_each(|(sum, l)| *sum += l);
+    }
     /// The vertex with which the direction of path `i` was drawn, unless a delta lobe gave it, or the camera.
     #[inline(always)]
     pub(super) fn last(&self, i: usize) -> Option<LastVertex> {
@@ -99,15 +115,9 @@ impl<'a, R: Record + Default> Paths<'a, R> {
     /// Paths of those families begin in those places: of paths that have ended, or behind the last.
     pub(super) fn begin(&mut self, fresh: &Fresh<'a>, places: &[u32], families: &[u32]) {
         self.grow(fresh, places);
-        fresh.put_rays(Ray::rows_mut(&mut self.ray), places);
+        fresh.put(places, Ray::rows_mut(&mut self.ray), &mut self.carried, &mut self.found);
         put(&mut self.place, places, |k| fresh.place(k));
         put(&mut self.sampler, places, |k| fresh.samplers()[k]);
-        put(&mut self.lambda, places, |k| fresh.lambda()[k]);
-        put(&mut self.carried, places, |k| {
-            let [a, b, c, d] = fresh.lambda()[k].lambda;
-            [1.0, 1.0, 1.0, 1.0, a, b, c, d]
-        });
-        put(&mut self.l, places, |_| Spectrum::ZERO);
         put(&mut self.behind, places, |_| BEGIN);
         put(&mut self.steps, places, |_| Steps::NONE);
         put(&mut self.way, places, |_| 0);
@@ -123,9 +133,8 @@ impl<'a, R: Record + Default> Paths<'a, R> {
         }
         self.place.resize(n, fresh.place(0));
         self.sampler.resize(n, fresh.samplers()[0]);
-        self.lambda.resize(n, fresh.lambda()[0]);
         self.ray.resize(n, Ray::new(vec3(0.0, 0.0, 0.0), vec3(0.0, 0.0, 0.0)));
-        self.l.resize(n, Spectrum::ZERO);
+        self.found.resize(n, [0.0; 8]);
         self.carried.resize(n, [0.0; 8]);
         self.behind.resize(n, BEGIN);
         self.steps.resize(n, Steps::NONE);
@@ -138,9 +147,9 @@ impl<'a, R: Record + Default> Paths<'a, R> {
     pub(super) fn branch(&mut self, i: usize, way: u32, sampler: PixelSampler<'a>) {
         self.place.push(self.place[i]);
         self.sampler.push(sampler);
-        self.lambda.push(self.lambda[i]);
         self.ray.push(self.ray[i]);
-        self.l.push(Spectrum::ZERO);
+        let [.., p, q, r, s] = self.found[i];
+        self.found.push([0.0, 0.0, 0.0, 0.0, p, q, r, s]);
         self.carried.push(self.carried[i]);
         self.behind.push(self.behind[i]);
         self.steps.push(self.steps[i]);
@@ -149,13 +158,26 @@ impl<'a, R: Record + Default> Paths<'a, R> {
         self.record.push(R::default());
     }
 
+    /// Forgets all paths.
+    pub(super) fn clear(&mut self) {
+        self.place.clear();
+        self.sampler.clear();
+        self.ray.clear();
+        self.found.clear();
+        self.carried.clear();
+        self.behind.clear();
+        self.steps.clear();
+        self.way.clear();
+        self.family.clear();
+        self.record.clear();
+    }
+
     /// Puts the last path in the place of one that has ended.
     pub(super) fn remove(&mut self, i: usize) {
         self.place.swap_remove(i);
         self.sampler.swap_remove(i);
-        self.lambda.swap_remove(i);
         self.ray.swap_remove(i);
-        self.l.swap_remove(i);
+        self.found.swap_remove(i);
         self.carried.swap_remove(i);
         self.behind.swap_remove(i);
         self.steps.swap_remove(i);

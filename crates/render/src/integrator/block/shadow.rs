@@ -91,7 +91,7 @@ impl Shadows {
         for ((p, [a, b, c, d, unweighted @ ..]), _) in arrived {
             let i = p.path as usize;
             paths.record[i].found(Finder::Light(p.depth), Spectrum(*unweighted), p.weight);
-            paths.l[i] += Spectrum([*a, *b, *c, *d]);
+            paths.add(i, Spectrum([*a, *b, *c, *d]));
         }
         n as u64
     }

@@ -68,7 +68,7 @@ impl Vertices {
             self.path.resize(padded(which.len()), last);
         }
         if material.dispersive {
-            which.iter().for_each(|&i| paths.lambda[i as usize].terminate_secondary());
+            which.iter().for_each(|&i| paths.terminate_secondary(i as usize));
         }
         in_lanes(Gather { rays: Ray::rows(&paths.ray), carried: &paths.carried, vertices: self });
         for (k, &path) in which.iter().enumerate() {
