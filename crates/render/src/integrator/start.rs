@@ -13,7 +13,7 @@ use crate::sampler::PixelSampler;
 use crate::scene::Scene;
 
 /// The place of a camera sample on the film.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct FilmPlace {
     /// Column and row in the film's window.
     pub(crate) pixel: [u32; 2],

@@ -96,10 +96,13 @@ impl<'a> Fresh<'a> {
     pub(super) fn len(&self) -> usize {
         self.places.len()
     }
-    /// The place of one on the film.
+    /// The place of each on the film.
     #[inline(always)]
-    pub(super) fn place(&self, k: usize) -> FilmPlace {
-        FilmPlace { weight: self.columns.weight[k], ..self.places[k] }
+    pub(super) fn places(&self) -> impl Iterator<Item = FilmPlace> {
+        self.places
+            .iter()
+            .zip(&self.columns.weight[..])
+            .map(|(place, &weight)| FilmPlace { weight, ..*place })
     }
     /// The numbers of each.
     pub(super) fn samplers(&self) -> &[PixelSampler<'a>] {

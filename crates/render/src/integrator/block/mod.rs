@@ -139,7 +139,7 @@ impl<'a, R: Record + Default> Block<'a, R> {
             places.extend((paths.len() as u32..).take(n - places.len()));
             of.clear();
             if how.splits > 1 {
-                of.extend((0..n).map(|k| families.push(fresh.place(k))));
+                of.extend(fresh.places().map(|place| families.push(place)));
             }
             paths.begin(fresh, places, of);
             rays.camera += n as u64;
@@ -151,7 +151,8 @@ impl<'a, R: Record + Default> Block<'a, R> {
         }
         // From the end, so that what takes the place of a path is under way.
         ended.sort_unstable();
-        ended.drain(..).rev().for_each(|i| paths.remove(i as usize));
+        paths.remove(ended);
+        ended.clear();
         paths.len() > 0
     }
 
