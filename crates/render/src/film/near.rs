@@ -19,12 +19,12 @@ impl Near {
     /// Takes a sample, unless it is another one.
     #[inline(always)]
     pub(super) fn add(&mut self, [r, g, b]: [f32; 3], weight: f32) -> bool {
-        // A sign changes no digit of the products.
-        let terms = [r * weight, g * weight, b * weight, weight].map(f64::from);
-        let small = terms.iter().fold(true, |small, t| small & (t.abs() < PARTS_MAX));
+        let small = r.abs() + g.abs() + b.abs() < PARTS_MAX as f32;
         if !(small & (weight.abs() == 1.0) & (self.lower[3] < MOST)) {
             return false;
         }
+        // A sign changes no digit of the products.
+        let terms = [r * weight, g * weight, b * weight, weight].map(f64::from);
         let parts = terms.map(parts);
         for c in 0..4 {
             self.upper[c] += parts[c][0];

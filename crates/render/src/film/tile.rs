@@ -28,7 +28,7 @@ impl FilmTile {
     /// Adds a sample to the pixel (`x`, `y`) of the *film's* window; outside the tile nothing happens.
     ///
     /// A sample that is not finite is counted and left out.
-    #[inline]
+    #[inline(always)]
     pub fn add(&mut self, x: u32, y: u32, rgb: [f32; 3], weight: f32) {
         // What lies before the tile wraps to numbers beyond its size.
         let (x, y) = (x.wrapping_sub(self.origin[0]), y.wrapping_sub(self.origin[1]));

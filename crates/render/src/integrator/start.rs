@@ -122,7 +122,7 @@ impl<'a, T: TileObserver> Exposed<'a, T> {
     }
 
     /// Takes what a path found, as [`FilmSensor::rgb`](crate::plan::FilmSensor::rgb) shows it.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn take_rgb(
         &mut self,
         place: FilmPlace,

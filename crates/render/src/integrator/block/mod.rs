@@ -232,13 +232,20 @@ impl<'a, R: Record + Default> Block<'a, R> {
     /// Hands over the light of paths that have ended, whose places are free.
     fn film<T: TileObserver<Record = R>>(&mut self, tile: &mut Exposed<'_, T>) {
         let Block { paths, ended, families, colours, .. } = self;
-        colours.measure(&tile.plan.sensor, paths, ended, |i, rgb| {
-            if tile.how.splits == 1 {
-                tile.take_rgb(paths.place[i], rgb, &paths.lambda(i), &paths.record[i]);
-            } else if let Some((place, parts)) = families.take(paths.family[i], paths.way[i], rgb) {
-                tile.take_parts(place, parts);
-            }
-        });
+        let (plan, place, record) = (tile.plan, &paths.place[..], &paths.record[..paths.place.len()]);
+        colours.measure(
+            &plan.sensor,
+            paths,
+            ended,
+            #[inline(always)]
+            |i, rgb| {
+                if tile.how.splits == 1 {
+                    tile.take_rgb(place[i], rgb, &paths.lambda(i), &record[i]);
+                } else if let Some((place, parts)) = families.take(paths.family[i], paths.way[i], rgb) {
+                    tile.take_parts(place, parts);
+                }
+            },
+        );
     }
 }
 
