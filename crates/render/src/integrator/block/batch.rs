@@ -40,8 +40,6 @@ pub(super) fn passes(scene: &Scene) -> u32 {
 pub(super) struct Batch {
     vertices: Box<Vertices>,
     lights: Box<LightSamples>,
-    /// Vertices of a light sample come before this one.
-    n_lit: usize,
     /// The models of vertices that are scattered one by one; empty where that is done in lanes.
     models: Vec<Scatter>,
     kind: Option<ModelKind>,
@@ -123,7 +121,7 @@ impl Batch {
         numbers.on_light.iter_mut().for_each(|c| pad(c, n));
         pad(&mut numbers.light, n);
         let lambda = |path: u32| paths.lambda(path as usize);
-        self.n_lit = self.lights.sample(scene, lambda, vertices, (&numbers.light, &numbers.on_light));
+        self.lights.sample(scene, lambda, vertices, (&numbers.light, &numbers.on_light));
     }
 
     /// Evaluates the parameters of the material, and turns directions to local frames.
@@ -174,12 +172,12 @@ impl Batch {
     }
 
     /// Hands over what arrives from the light samples, by way of shadow rays.
-    pub(super) fn direct<R>(&mut self, how: &PathIntegrator, paths: &Paths<'_, R>, shadows: &mut Shadows) {
-        let (n, columns) = (self.n_lit, &mut *self.columns);
-        if n == 0 {
+    pub(super) fn direct(&mut self, how: &PathIntegrator, shadows: &mut Shadows) {
+        let (n, columns) = (self.vertices.len(), &mut *self.columns);
+        if self.lights.order.is_empty() {
             return;
         }
-        for (k, model) in self.models.iter().take(n).enumerate() {
+        for (k, model) in self.models.iter().enumerate() {
             let (f_cos, pdf) = model.f_cos_pdf(vector(&self.vertices.wo, k), vector(&self.lights.wi, k));
             put_spectrum(&mut columns.f_cos, k, f_cos);
             columns.pdf[k] = pdf;
@@ -187,7 +185,7 @@ impl Batch {
         if let Some(kind) = self.kind {
             columns.f_cos_pdf(kind, &self.vertices.nm, padded(n));
         }
-        shadows.push(how, &self.vertices, &self.lights, (&columns.f_cos, &columns.pdf), (n, paths));
+        shadows.push(how, &self.vertices, &self.lights, (&columns.f_cos, &columns.pdf));
     }
 
     /// The next direction of each path; the path is among those `ended` where there is none, or where roulette says so.

@@ -23,10 +23,6 @@ impl Groups {
         }
         group.push(i);
     }
-    /// There are no numbers.
-    pub(super) fn is_empty(&self) -> bool {
-        self.keys.is_empty()
-    }
     /// Sorts each group by depth.
     pub(super) fn sort_by_depth(&mut self, depth: impl Fn(u32) -> u32) {
         for &key in &self.keys {

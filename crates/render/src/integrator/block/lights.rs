@@ -24,6 +24,8 @@ pub(super) struct LightSamples {
     /// Of that choice; zero where there is none.
     probability: Column,
     by_light: Groups,
+    /// Vertices for which a light was chosen, those of one light together.
+    pub(super) order: Vec<u32>,
     /// To the light, unit.
     pub(super) wi: [Column; 3],
     /// In 1/sr, with the choice; zero where no light is sampled, or one that sends nothing.
@@ -48,21 +50,22 @@ impl LightSamples {
         self.delta[..padded(n)].fill(0.0);
     }
 
-    /// Samples a light at each vertex where it is asked, by uniform numbers for the choice and for a point of the light. Returns how far
-    /// vertices with light go.
+    /// Samples a light at each vertex where it is asked, by uniform numbers for the choice and for a point of the light.
     pub(super) fn sample(
         &mut self,
         scene: &Scene,
         lambda: impl Fn(u32) -> Wavelengths,
         vertices: &Vertices,
         (choice, u): (&Column, &[Column; 2]),
-    ) -> usize {
+    ) {
         let (n, lights) = (vertices.len(), scene.lights());
         let in_lanes = |light: u32, n: usize| n >= FEW && lights.samples_in_lanes(scene.geometry(), light);
         if let Some(only) = lights.only().filter(|&light| self.asked.iter().all(|a| *a) && in_lanes(light, n))
         {
             self.at_all(scene, only, vertices, u);
-            return n;
+            self.order.clear();
+            self.order.extend(0..n as u32);
+            return;
         }
         self.choose(scene, vertices, choice);
         let mut by_light = core::mem::take(&mut self.by_light);
@@ -82,9 +85,9 @@ impl LightSamples {
         for (light, which) in by_light.parts(BATCH).filter(|part| !beside(part)) {
             self.one_by_one(scene, (light, which), (&lambda, vertices), u);
         }
-        let n = if by_light.is_empty() { 0 } else { n };
+        self.order.clear();
+        by_light.parts(BATCH).for_each(|(_, which)| self.order.extend_from_slice(which));
         self.by_light = by_light;
-        n
     }
 
     /// Chooses a light for each vertex.

@@ -107,7 +107,7 @@ impl<'a, R: Record + Default> Block<'a, R> {
                 self.batch.begin(scene, &how, sampler, (&mut self.paths, &self.hits), (key, which));
                 self.batch.sample_lights(scene, &how, &self.paths);
                 self.batch.bind(scene, (&mut self.paths, &self.hits), key);
-                self.batch.direct(&how, &self.paths, &mut self.shadows);
+                self.batch.direct(&how, &mut self.shadows);
                 self.batch.scatter(
                     (&mut self.paths, &mut self.ended),
                     tile.learned.map(|_| |pixel| tile.roulette(pixel)),

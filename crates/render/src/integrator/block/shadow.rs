@@ -18,7 +18,7 @@ use crate::scene::Scene;
 struct Pending {
     path: u32,
     /// Scattering events before this vertex.
-    depth: u32,
+    depth: f32,
     weight: f32,
 }
 
@@ -51,33 +51,37 @@ struct Columns {
 }
 
 impl Shadows {
-    /// Takes over the light samples of the first `n` vertices that the BSDF scatters to the viewer; it does so by `f_cos`, and draws
-    /// these directions with density `pdf`.
-    pub(super) fn push<R>(
+    /// Takes over the light samples of vertices that the BSDF scatters to the viewer; it does so by `f_cos`, and draws these directions
+    /// with density `pdf`. Rays to one light follow each other.
+    pub(super) fn push(
         &mut self,
         how: &PathIntegrator,
         vertices: &Vertices,
         lights: &LightSamples,
         (f_cos, pdf): (&[Column; N_LAMBDA], &Column),
-        (n, paths): (usize, &Paths<'_, R>),
     ) {
-        let out = &mut *self.columns;
+        let (n, out) = (vertices.len(), &mut *self.columns);
         in_lanes(Arrive { n: padded(n), mis: how.mis, vertices, lights, f_cos, pdf, out });
-        let room = self.n + n;
+        // The last place is for what is not lit.
+        let (first, nowhere) = (self.n, n as u32);
+        let room = first + n + 1;
         if room > self.rays.len() {
             self.rays.resize(room, Ray::new(vec3(0.0, 0.0, 0.0), vec3(0.0, 0.0, 0.0)));
             self.arrives.resize(room, [0.0; 8]);
             self.pending.resize(room, Pending::default());
         }
-        let first = self.n;
         self.places.clear();
-        for (k, &path) in vertices.paths()[..n].iter().enumerate() {
-            // What is not lit is overwritten by the next.
-            self.places.push((self.n - first) as u32);
-            self.pending[self.n] =
-                Pending { path, depth: paths.steps[path as usize].depth, weight: out.weight[k] };
-            self.n += usize::from(out.lit[k] > 0.0);
+        self.places.resize(n, nowhere);
+        let (mut next, pending) = (0, &mut self.pending[first..room]);
+        for k in lights.order.iter().map(|k| *k as usize) {
+            if out.lit[k] > 0.0 {
+                self.places[k] = next;
+                let path = vertices.paths()[k];
+                pending[next as usize] = Pending { path, depth: vertices.depth[k], weight: out.weight[k] };
+                next += 1;
+            }
         }
+        self.n += next as usize;
         let (rays, arrives) = (Ray::rows_mut(&mut self.rays[first..]), &mut self.arrives[first..]);
         in_lanes(Ask { columns: out, time: &vertices.time, places: &self.places, rays, arrives });
     }
@@ -90,7 +94,7 @@ impl Shadows {
             self.pending.iter().zip(&self.arrives).zip(&self.occluded).filter(|(_, occluded)| !**occluded);
         for ((p, [a, b, c, d, unweighted @ ..]), _) in arrived {
             let i = p.path as usize;
-            paths.record[i].found(Finder::Light(p.depth), Spectrum(*unweighted), p.weight);
+            paths.record[i].found(Finder::Light(p.depth as u32), Spectrum(*unweighted), p.weight);
             paths.add(i, Spectrum([*a, *b, *c, *d]));
         }
         n as u64
