@@ -24,6 +24,7 @@ mod render;
 mod roulette;
 mod run;
 pub mod sampler;
+mod samples;
 mod scatter;
 mod scene;
 mod spectrum;

@@ -15,6 +15,7 @@ use crate::plan::RenderPlan;
 use crate::render::{Progress, RenderError, RenderOptions, RenderStats};
 use crate::roulette::{Learned, learn};
 use crate::sampler::Sampler;
+use crate::samples::Samples;
 use crate::scene::Scene;
 
 /// Pixels along the side of a tile, at least.
@@ -57,36 +58,6 @@ pub(crate) struct Job<'a, O = ()> {
     /// Pixels along each side.
     pub(crate) side: u32,
     pub(crate) samples: Range<u32>,
-}
-
-/// The samples of all pixels of a tile, pixel by pixel.
-struct Samples {
-    first: [u32; 2],
-    width: u32,
-    height: u32,
-    samples: Range<u32>,
-    /// Sample, column and row of what comes next, from the first of each.
-    next: [u32; 3],
-}
-
-impl Iterator for Samples {
-    type Item = ([u32; 2], u32);
-    #[inline]
-    fn next(&mut self) -> Option<([u32; 2], u32)> {
-        let [sample, x, y] = &mut self.next;
-        if *y == self.height || self.samples.is_empty() {
-            return None;
-        }
-        let item = ([self.first[0] + *x, self.first[1] + *y], self.samples.start + *sample);
-        *sample += 1;
-        if self.samples.start + *sample == self.samples.end {
-            (*sample, *x) = (0, *x + 1);
-        }
-        if *x == self.width {
-            (*x, *y) = (0, *y + 1);
-        }
-        Some(item)
-    }
 }
 
 /// State that all threads share.
@@ -261,8 +232,7 @@ impl<'a> Run<'a> {
         let [w, h] = film.size();
         let learned = self.learned.as_ref();
         let mut tile = Exposed { plan: self.plan, how: self.how, learned, film, observer };
-        let mut each =
-            Samples { first: *origin, width: w, height: h, samples: samples.clone(), next: [0; 3] };
+        let mut each = Samples::new(*origin, [w, h], samples.clone());
         let rays = if self.plan.one_by_one {
             self.one_by_one(exposure.sampler, each, &mut tile)
         } else {

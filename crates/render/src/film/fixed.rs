@@ -2,6 +2,8 @@
 
 /// Bits after the binary point of the sums of values.
 pub(crate) const VALUE_BITS: i32 = 64;
+/// Bits after the binary point of the sums of weights.
+pub(crate) const WEIGHT_BITS: i32 = 32;
 
 /// Largest magnitude of one term, 2^40.
 const TERM_MAX: f64 = 1_099_511_627_776.0;
@@ -39,16 +41,30 @@ fn magnitude(x: f64) -> u128 {
 /// Added to a number below 2^51 in magnitude, leaves it in the lowest bits, rounded to the nearest, halves to even.
 const ROUND: f64 = 1.5 * 4_503_599_627_370_496.0;
 
+/// Terms below this in magnitude, 2^27, have [`parts`].
+pub(crate) const PARTS_MAX: f64 = 134_217_728.0;
+
+/// A term in two parts, of steps of 2^-24 and 2^-64, of which there are up to 2^51 and 2^39.
+#[inline(always)]
+pub(crate) fn parts(x: f64) -> [i64; 2] {
+    let scaled = x * 16_777_216.0;
+    let upper = scaled + ROUND;
+    // What the first leaves is exact.
+    let lower = (scaled - (upper - ROUND)) * 1_099_511_627_776.0 + ROUND;
+    [upper, lower].map(|rounded| (rounded.to_bits() as i64).wrapping_sub(ROUND.to_bits() as i64))
+}
+
+/// The sum of terms whose [`parts`] have those sums.
+#[inline(always)]
+pub(crate) fn whole([upper, lower]: [i64; 2]) -> i128 {
+    (i128::from(upper) << 40) + i128::from(lower)
+}
+
 /// A term of a signed sum, cut at ±2^40.
 #[inline(always)]
 pub(crate) fn value(x: f64) -> i128 {
-    if x.abs() < 134_217_728.0 {
-        // In two parts, of steps of 2^-24 and 2^-64; what the first leaves is exact.
-        let scaled = x * 16_777_216.0;
-        let upper = scaled + ROUND;
-        let lower = (scaled - (upper - ROUND)) * 1_099_511_627_776.0 + ROUND;
-        let steps = |rounded: f64| (rounded.to_bits() as i64).wrapping_sub(ROUND.to_bits() as i64);
-        return (i128::from(steps(upper)) << 40) + i128::from(steps(lower));
+    if x.abs() < PARTS_MAX {
+        return whole(parts(x));
     }
     let m = magnitude(x.clamp(-TERM_MAX, TERM_MAX)) as i128;
     if x < 0.0 { -m } else { m }

@@ -22,6 +22,7 @@
 mod error;
 mod fixed;
 mod halves;
+mod near;
 mod pixels;
 #[cfg(test)]
 #[expect(clippy::float_cmp, reason = "exactness is what is tested")]

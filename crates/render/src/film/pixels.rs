@@ -2,6 +2,7 @@
 
 use super::error::FilmError;
 use super::fixed::{VALUE_STEP, WEIGHT_STEP, square, value, weight};
+use super::near::Near;
 
 /// Sums kept for the variance, on the film's grids.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -42,11 +43,12 @@ pub struct PixelView {
     pub variance: [f64; 3],
 }
 
+/// Sums of a pixel as a [`RawPixel`] has them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-struct Sums {
-    rgb: [i128; 3],
-    weight: i64,
-    n: u32,
+pub(super) struct Sums {
+    pub(super) rgb: [i128; 3],
+    pub(super) weight: i64,
+    pub(super) n: u32,
 }
 
 /// Sums of the samples of each pixel; see the module's documentation for grids and ranges.
@@ -206,29 +208,36 @@ impl Film {
     /// # Errors
     /// Where the other reaches beyond this one or variances differ; the film is then unchanged.
     pub(super) fn merge_at(&mut self, origin: [u32; 2], other: &Film) -> Result<(), FilmError> {
-        let (film, size) = ([self.width, self.height], [other.width, other.height]);
+        let size = [other.width, other.height];
+        self.check_fits(origin, size, other.has_variance())?;
+        each_in(&mut self.sums, self.width, origin, size, &other.sums, Sums::merge);
+        if self.has_variance() {
+            each_in(&mut self.squares, self.width, origin, size, &other.squares, RawSquares::merge);
+        }
+        self.rejected = self.rejected.saturating_add(other.rejected);
+        Ok(())
+    }
+
+    /// Adds sums of the pixels of a rectangle, row by row.
+    pub(super) fn merge_near(&mut self, origin: [u32; 2], size: [u32; 2], near: &[Near]) {
+        each_in(&mut self.sums, self.width, origin, size, near, |own, near| own.merge(&near.sums()));
+    }
+
+    /// Says what stands against adding the sums of a rectangle.
+    pub(super) fn check_fits(
+        &self,
+        origin: [u32; 2],
+        size: [u32; 2],
+        with_variance: bool,
+    ) -> Result<(), FilmError> {
+        let film = [self.width, self.height];
         let fits = |c: usize| u64::from(origin[c]) + u64::from(size[c]) <= u64::from(film[c]);
         if !(fits(0) && fits(1)) {
             return Err(FilmError::Outside { film, origin, size });
         }
-        if self.squares.is_empty() != other.squares.is_empty() && !other.sums.is_empty() {
+        if self.has_variance() != with_variance && size[0] > 0 && size[1] > 0 {
             return Err(FilmError::Variance);
         }
-        let (from_width, to_width) = (size[0] as usize, film[0] as usize);
-        for y in 0..size[1] as usize {
-            let from = y * from_width..(y + 1) * from_width;
-            let start = (origin[1] as usize + y) * to_width + origin[0] as usize;
-            let to = start..start + from_width;
-            for (a, b) in self.sums[to.clone()].iter_mut().zip(&other.sums[from.clone()]) {
-                a.merge(b);
-            }
-            if self.has_variance() {
-                for (a, b) in self.squares[to].iter_mut().zip(&other.squares[from]) {
-                    a.merge(b);
-                }
-            }
-        }
-        self.rejected = self.rejected.saturating_add(other.rejected);
         Ok(())
     }
 
@@ -237,6 +246,22 @@ impl Film {
         self.sums.fill(Sums::default());
         self.squares.fill(RawSquares::default());
         self.rejected = 0;
+    }
+}
+
+/// Visits the pixels of a rectangle of a film of that width, with what belongs to each.
+fn each_in<A, B>(
+    all: &mut [A],
+    width: u32,
+    origin: [u32; 2],
+    size: [u32; 2],
+    of_rectangle: &[B],
+    visit: impl Fn(&mut A, &B),
+) {
+    let rows = of_rectangle.chunks_exact((size[0] as usize).max(1));
+    for (y, row) in (origin[1] as usize..).zip(rows) {
+        let first = y * width as usize + origin[0] as usize;
+        all[first..][..row.len()].iter_mut().zip(row).for_each(|(own, other)| visit(own, other));
     }
 }
 

@@ -24,7 +24,8 @@ fn samples(n: usize) -> Vec<Sample> {
     (0..n)
         .map(|_| {
             let rgb = [value(&mut r), value(&mut r), value(&mut r)];
-            (r.next() % 8, r.next() % 6, rgb, r.unit() * 2.0 - 0.5)
+            let weight = [1.0, -1.0, r.unit() * 2.0 - 0.5][r.next() as usize % 3];
+            (r.next() % 8, r.next() % 6, rgb, weight)
         })
         .collect()
 }
@@ -61,6 +62,23 @@ fn any_order_and_any_split_give_the_same_bits() {
         }
         assert_eq!(tiled, whole, "tiles {round}");
     }
+}
+
+#[test]
+fn tiles_without_variance_sum_up_the_same() {
+    let (mut film, mut tiled) = (Film::new(8, 6, false), Film::new(8, 6, false));
+    let mut tile = tiled.tile([2, 1], [3, 3]);
+    // More than a pixel of a tile takes in parts, and some that are no numbers.
+    for (i, (x, y, mut rgb, w)) in samples(400_000).into_iter().enumerate() {
+        rgb[1] = if i % 1000 == 7 { f32::NAN } else { rgb[1] };
+        tile.add(x, y, rgb, w);
+        if (2..5).contains(&x) && (1..4).contains(&y) {
+            film.add(x, y, rgb, w);
+        }
+    }
+    tiled.absorb(&tile).unwrap();
+    assert_eq!(tiled, film);
+    assert!(film.rejected() > 0 && film.pixel(2, 1).n > 5000);
 }
 
 #[test]

@@ -13,7 +13,7 @@ use crate::sampler::PixelSampler;
 use crate::scene::Scene;
 
 /// The place of a camera sample on the film.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct FilmPlace {
     /// Column and row in the film's window.
     pub(crate) pixel: [u32; 2],
@@ -122,7 +122,7 @@ impl<'a, T: TileObserver> Exposed<'a, T> {
     }
 
     /// Takes what a path found, as [`FilmSensor::rgb`](crate::plan::FilmSensor::rgb) shows it.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn take_rgb(
         &mut self,
         place: FilmPlace,

@@ -29,6 +29,8 @@ pub enum Draw<'a> {
     Two(u32, [&'a mut [f32]; 2]),
     /// What [`PixelSampler::get_3d`] gives.
     Three(u32, [&'a mut [f32]; 3]),
+    /// What [`PixelSampler::get_pixel_2d`] gives; all stand at dimension 0.
+    Pixel([&'a mut [f32]; 2]),
 }
 
 impl Sampler {
@@ -42,10 +44,12 @@ impl Sampler {
         while first < n {
             chunk.gather((first..n).map(&at));
             let places = first..first + chunk.n;
-            if draws.iter().all(|draw| chunk.has_columns(draw)) {
-                in_lanes(Columns { chunk: &chunk, first, draws });
-            } else {
-                draws.iter_mut().for_each(|draw| draw.one_by_one(places.clone(), &at));
+            for draw in draws.iter_mut() {
+                if chunk.has_columns(draw) {
+                    in_lanes(Columns { chunk: &chunk, first, draw });
+                } else {
+                    draw.one_by_one(places.clone(), &at);
+                }
             }
             first = places.end;
         }
@@ -66,18 +70,6 @@ impl Sampler {
     pub(crate) fn has_tables(&self) -> bool {
         matches!(self.plan, Plan::Sobol(_))
     }
-
-    /// What [`PixelSampler::get_pixel_2d`] gives for each of `paths`, by coordinates.
-    pub fn fill_pixel_2d(&self, paths: &[PixelSampler<'_>], out: [&mut [f32]; 2]) {
-        let at_start = paths.iter().all(|path| path.dimension() == 0);
-        if at_start && !matches!(self.plan, Plan::Sobol(_) | Plan::Halton(_)) {
-            return self.fill_2d(paths, PIXEL_DIMENSION, out);
-        }
-        let [xs, ys] = out;
-        for ((path, x), y) in paths.iter().zip(xs).zip(ys) {
-            [*x, *y] = path.at(0).get_pixel_2d();
-        }
-    }
 }
 
 impl Draw<'_> {
@@ -87,6 +79,7 @@ impl Draw<'_> {
             Draw::One(offset, _) => (*offset, 1),
             Draw::Two(offset, _) => (*offset, 2),
             Draw::Three(offset, _) => (*offset, 3),
+            Draw::Pixel(_) => (PIXEL_DIMENSION, 2),
         }
     }
 
@@ -97,6 +90,7 @@ impl Draw<'_> {
                 Draw::One(offset, x) => x[k] = at(k).after(*offset).get_1d(),
                 Draw::Two(offset, [x, y]) => [x[k], y[k]] = at(k).after(*offset).get_2d(),
                 Draw::Three(offset, [x, y, z]) => [x[k], y[k], z[k]] = at(k).after(*offset).get_3d(),
+                Draw::Pixel([x, y]) => [x[k], y[k]] = at(k).get_pixel_2d(),
             }
         }
     }
@@ -123,13 +117,14 @@ impl<'a> Chunk<'a> {
     fn gather<'p>(&mut self, paths: impl ExactSizeIterator<Item = PixelSampler<'p>> + Clone) {
         self.dimension = paths.clone().next().map_or(0, |path| path.dimension());
         self.n = paths.len().min(CHUNK);
+        let [low, high] = &mut self.index;
         if self.sampler.has_tables() {
             let alike = paths.clone().take(CHUNK).take_while(|path| path.dimension() == self.dimension);
             self.n = alike.count();
+            high.iter_mut().zip(paths.clone()).for_each(|(high, path)| *high = (path.index >> 32) as u32);
         }
-        let [low, high] = &mut self.index;
-        for (((key, low), high), path) in self.keys[..self.n].iter_mut().zip(low).zip(high).zip(paths) {
-            (*key, *low, *high) = (path.key_here(), path.index as u32, (path.index >> 32) as u32);
+        for (k, path) in (0..self.n.min(CHUNK)).zip(paths) {
+            (self.keys[k], low[k]) = (path.key_here(), path.index as u32);
         }
     }
 
@@ -153,24 +148,23 @@ impl<'a> Chunk<'a> {
 struct Columns<'a, 'b, 'c> {
     chunk: &'a Chunk<'b>,
     first: usize,
-    draws: &'a mut [Draw<'c>],
+    draw: &'a mut Draw<'c>,
 }
 
 impl InLanes for Columns<'_, '_, '_> {
     type Output = ();
     #[inline(always)]
     fn run<R: Real>(self) {
-        let Columns { chunk, first, draws } = self;
+        let Columns { chunk, first, draw } = self;
         let places = first..first + chunk.n;
-        for draw in draws {
-            match draw {
-                Draw::One(offset, x) => chunk.fill(*offset, [&mut x[places.clone()]]),
-                Draw::Two(offset, out) => {
-                    chunk.fill(*offset, out.each_mut().map(|x| &mut x[places.clone()]));
-                }
-                Draw::Three(offset, out) => {
-                    chunk.fill(*offset, out.each_mut().map(|x| &mut x[places.clone()]));
-                }
+        let (offset, _) = draw.dimensions();
+        match draw {
+            Draw::One(_, x) => chunk.fill(offset, [&mut x[places]]),
+            Draw::Two(_, [x, y]) | Draw::Pixel([x, y]) => {
+                chunk.fill(offset, [&mut x[places.clone()], &mut y[places]]);
+            }
+            Draw::Three(_, [x, y, z]) => {
+                chunk.fill(offset, [&mut x[places.clone()], &mut y[places.clone()], &mut z[places]]);
             }
         }
     }

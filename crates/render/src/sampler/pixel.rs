@@ -1,5 +1,7 @@
 //! [`Sampler`] and the state of one pixel sample, [`PixelSampler`].
 
+use core::ops::Range;
+
 use super::config::{Randomize, SamplerConfig, SamplerKind};
 use super::halton::{self, HaltonTables};
 use super::hash::{GOLDEN, join, mix, to_unit};
@@ -159,12 +161,6 @@ pub struct Pixel<'a> {
 }
 
 impl<'a> Pixel<'a> {
-    /// Column and row in the full image.
-    #[inline]
-    pub fn place(&self) -> [u32; 2] {
-        self.place
-    }
-
     /// [`Sampler::start`] for a sample of this pixel.
     #[inline]
     pub fn start(&self, sample: u32) -> PixelSampler<'a> {
@@ -187,6 +183,19 @@ impl<'a> Pixel<'a> {
             Plan::Halton(tables) => tables.index(place, sample),
         };
         PixelSampler { sampler, key, index, dimension: 0 }
+    }
+
+    /// [`start`](Self::start) for each of `samples`, added to `out`.
+    pub(crate) fn start_all(&self, samples: Range<u32>, out: &mut Vec<PixelSampler<'a>>) {
+        let Pixel { sampler, morton, key, .. } = *self;
+        match sampler.plan {
+            // All are planned, and share the pixel's key.
+            Plan::ZOrder { log2_spp } if samples.end <= 1 << log2_spp => out.extend(samples.map(|sample| {
+                let index = u64::from(zorder::reversed_index(morton, sample, log2_spp));
+                PixelSampler { sampler, key, index, dimension: 0 }
+            })),
+            _ => out.extend(samples.map(|sample| self.start(sample))),
+        }
     }
 }
 

@@ -79,26 +79,27 @@ pub(crate) fn third_dimension(mut n: u32) -> u32 {
 /// *every* padded dimension, which doubles the variance of what depends on two of them jointly. After
 /// a permutation of blocks of `B` that excess is `1 / (B - 1)` of the variance: 7 % for sixteen, a third
 /// for the base-4 digits of [Ahmed2020]. Blocks stay together, so larger powers of two remain nets.
-pub(crate) struct Blocks(Box<[u64; 256]>);
+pub(crate) struct Blocks(Box<[u8; 16 * 256]>);
 
 impl Blocks {
-    /// Permutations within aligned blocks of `2^log2_size` indices, `log2_size <= 4`; one hex digit per place.
+    /// Permutations of sixteen places within aligned blocks of `2^log2_size` indices, `log2_size <= 4`, one after the other.
     pub(crate) fn new(log2_size: u32) -> Blocks {
-        let permutation = |j: usize| {
-            let size = 1u64 << log2_size;
-            let mut order: Vec<u64> = (0..size).collect();
-            order.sort_unstable_by_key(|v| mix(j as u64 * 16 + v));
-            (0..16u64).fold(0, |table, v| table | (v / size * size + order[(v % size) as usize]) << (4 * v))
-        };
-        Blocks(Box::new(core::array::from_fn(permutation)))
+        let size = 1u8 << log2_size;
+        let mut places = Box::new([0; 16 * 256]);
+        for (permutation, j) in places.as_chunks_mut::<16>().0.iter_mut().zip(0..) {
+            let mut order: Vec<u8> = (0..size).collect();
+            order.sort_unstable_by_key(|v| mix(j * 16 + u64::from(*v)));
+            *permutation = core::array::from_fn(|v| v as u8 / size * size + order[v % order.len()]);
+        }
+        Blocks(places)
     }
 
     /// Moves an index within its block, as `key` and the block say.
     #[inline(always)]
     pub(crate) fn permute(&self, index: u32, key: u32) -> u32 {
         let block = (index | 15).wrapping_mul(0x9e37_79b9) ^ key;
-        let table = self.0[(block >> 24) as usize];
-        (index & !15) | ((table >> (4 * (index & 15))) & 15) as u32
+        let place = self.0[(block >> 24 << 4 | index & 15) as usize];
+        (index & !15) | u32::from(place)
     }
 }
 

@@ -389,10 +389,11 @@ fn columns_equal_single_numbers() {
                     assert_eq!([u[i], v[i], w[i]], p.clone().get_3d(), "{kind:?} {randomize:?}: {i} at {d}");
                     assert_eq!(a[i], p.get_1d(), "{kind:?} {randomize:?}: {i} at {d}");
                 }
-                s.fill_pixel_2d(paths, [&mut x, &mut y]);
-                for (i, p) in paths.iter().enumerate() {
-                    assert_eq!([x[i], y[i]], p.at(d).get_pixel_2d(), "{kind:?} {randomize:?}: pixel {i}");
-                }
+            }
+            let [mut x, mut y] = [[0.0; 150]; 2];
+            s.fill(150, |i| first[i], &mut [Draw::Pixel([&mut x, &mut y])]);
+            for (i, p) in first.iter().enumerate() {
+                assert_eq!([x[i], y[i]], p.at(3).get_pixel_2d(), "{kind:?} {randomize:?}: pixel {i}");
             }
         }
     }

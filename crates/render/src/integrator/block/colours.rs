@@ -28,28 +28,28 @@ impl Colours {
             self.which.clear();
             self.which.extend_from_slice(batch);
             self.which.resize(padded(batch.len()), batch[0]);
-            let Colours { which, rgb } = self;
-            in_lanes(Measure { sensor, which, found: &paths.found, carried: &paths.carried, rgb });
-            for (k, &i) in batch.iter().enumerate() {
-                give(i as usize, self.rgb.each_ref().map(|c| c[k]));
-            }
+            let (colours, give) = (&mut *self, &mut give);
+            let (found, carried) = (&paths.found[..], &paths.carried[..]);
+            in_lanes(Measure { sensor, n: batch.len(), found, carried, colours, give });
         }
     }
 }
 
-struct Measure<'a> {
+struct Measure<'a, G> {
     sensor: &'a FilmSensor,
-    which: &'a [u32],
+    /// Paths that are handed on.
+    n: usize,
     found: &'a [[f32; 8]],
     carried: &'a [[f32; 8]],
-    rgb: &'a mut [Column; 3],
+    colours: &'a mut Colours,
+    give: &'a mut G,
 }
 
-impl InLanes for Measure<'_> {
+impl<G: FnMut(usize, [f32; 3])> InLanes for Measure<'_, G> {
     type Output = ();
     #[inline(always)]
     fn run<R: Real>(self) {
-        let Measure { sensor, which, found, carried, rgb: [red, green, blue] } = self;
+        let Measure { sensor, n, found, carried, colours: Colours { which, rgb: [red, green, blue] }, give } = self;
         for (k, which) in (0..).step_by(R::WIDTH).zip(which.chunks_exact(R::WIDTH)) {
             let [a, b, c, d, p, q, r, s] = R::gather_rows(found, which);
             let [.., nm0, nm1, nm2, nm3] = R::gather_rows(carried, which);
@@ -58,6 +58,10 @@ impl InLanes for Measure<'_> {
             r.store(&mut red[..], k);
             g.store(&mut green[..], k);
             b.store(&mut blue[..], k);
+        }
+        let colours = red.iter().zip(&green[..]).zip(&blue[..]);
+        for (&i, ((&r, &g), &b)) in which[..n].iter().zip(colours) {
+            give(i as usize, [r, g, b]);
         }
     }
 }

@@ -7,7 +7,8 @@ use super::column::{BATCH, Column, load, padded, put_vector, spectrum, store_vec
 use crate::camera::Camera;
 use crate::integrator::start::{CameraNumbers, CameraSample, FilmPlace, film_point};
 use crate::plan::RenderPlan;
-use crate::sampler::{Draw, Pixel, PixelSampler, Sampler};
+use crate::sampler::{Draw, PixelSampler, Sampler};
+use crate::samples::{OfPixel, Samples};
 use crate::scene::Scene;
 
 /// Camera samples that are drawn together.
@@ -36,31 +37,17 @@ struct Columns {
 }
 
 impl<'a> Fresh<'a> {
-    /// Draws `samples`, at most a batch of them; false where there are none.
+    /// Draws the next of `samples`, at most a batch of them, and `most`; false where there are none.
     pub(super) fn draw(
         &mut self,
         scene: &Scene,
         sampler: &'a Sampler,
         plan: &RenderPlan,
-        samples: &mut impl Iterator<Item = ([u32; 2], u32)>,
+        samples: &mut Samples,
+        most: usize,
     ) -> bool {
-        let columns = &mut *self.columns;
-        self.places.clear();
-        self.samplers.clear();
-        // Samples come pixel by pixel.
-        let mut last: Option<Pixel<'_>> = None;
-        for (k, (pixel, sample)) in samples.take(BATCH).enumerate() {
-            let place = plan.in_full_picture(pixel);
-            let of = match last {
-                Some(last) if last.place() == place => last,
-                _ => sampler.pixel(place),
-            };
-            last = Some(of);
-            columns.place.iter_mut().zip(place).for_each(|(column, x)| column[k] = x as f32);
-            self.places.push(FilmPlace { pixel, weight: 1.0, sample });
-            self.samplers.push(of.start(sample));
-        }
-        let n = self.places.len();
+        self.start(sampler, plan, samples, most.min(BATCH));
+        let (n, columns) = (self.places.len(), &mut *self.columns);
         columns.fill(sampler, &self.samplers, scene);
         let (nm, pdf) =
             (columns.nm.each_mut().map(|c| &mut c[..]), columns.pdf.each_mut().map(|c| &mut c[..]));
@@ -74,6 +61,23 @@ impl<'a> Fresh<'a> {
             in_lanes(Rays { n: padded(n), plan, camera: &scene.camera, columns });
         }
         n > 0
+    }
+
+    /// Takes samples, pixel by pixel.
+    fn start(&mut self, sampler: &'a Sampler, plan: &RenderPlan, samples: &mut Samples, most: usize) {
+        self.places.clear();
+        self.samplers.clear();
+        while self.places.len() < most {
+            let left = most - self.places.len();
+            let Some(OfPixel { pixel, samples }) = samples.of_pixel(left as u32) else { break };
+            let place = plan.in_full_picture(pixel);
+            let here = self.places.len()..self.places.len() + samples.len();
+            for (column, x) in self.columns.place.iter_mut().zip(place) {
+                column[here.clone()].fill(x as f32);
+            }
+            sampler.pixel(place).start_all(samples.clone(), &mut self.samplers);
+            self.places.extend(samples.map(|sample| FilmPlace { pixel, weight: 1.0, sample }));
+        }
     }
 
     /// Rays of a camera that moves.
@@ -92,10 +96,13 @@ impl<'a> Fresh<'a> {
     pub(super) fn len(&self) -> usize {
         self.places.len()
     }
-    /// The place of one on the film.
+    /// The place of each on the film.
     #[inline(always)]
-    pub(super) fn place(&self, k: usize) -> FilmPlace {
-        FilmPlace { weight: self.columns.weight[k], ..self.places[k] }
+    pub(super) fn places(&self) -> impl Iterator<Item = FilmPlace> {
+        self.places
+            .iter()
+            .zip(&self.columns.weight[..])
+            .map(|(place, &weight)| FilmPlace { weight, ..*place })
     }
     /// The numbers of each.
     pub(super) fn samplers(&self) -> &[PixelSampler<'a>] {
@@ -118,17 +125,17 @@ impl Columns {
     fn fill(&mut self, sampler: &Sampler, paths: &[PixelSampler<'_>], scene: &Scene) {
         let [wavelength, time, lens] = CameraNumbers::DIMENSIONS;
         let n = paths.len();
-        let draw = |draw: Draw<'_>| sampler.fill(n, |k| paths[k], &mut [draw]);
-        draw(Draw::One(wavelength, &mut self.wavelength[..]));
+        let at = |k: usize| paths[k];
+        let pixel = Draw::Pixel(self.pixel.each_mut().map(|c| &mut c[..]));
+        sampler.fill(n, at, &mut [Draw::One(wavelength, &mut self.wavelength[..]), pixel]);
         if scene.moves {
-            draw(Draw::One(time, &mut self.time[..]));
+            sampler.fill(n, at, &mut [Draw::One(time, &mut self.time[..])]);
         } else {
             self.time[..padded(n)].fill(0.0);
         }
         if scene.camera.has_lens() {
-            draw(Draw::Two(lens, self.lens.each_mut().map(|c| &mut c[..])));
+            sampler.fill(n, at, &mut [Draw::Two(lens, self.lens.each_mut().map(|c| &mut c[..]))]);
         }
-        sampler.fill_pixel_2d(paths, self.pixel.each_mut().map(|c| &mut c[..n]));
     }
     fn numbers(&self, k: usize) -> CameraNumbers {
         CameraNumbers {

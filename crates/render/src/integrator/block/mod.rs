@@ -40,6 +40,7 @@ use super::{Exposed, PathIntegrator, RayCounts, Record};
 use crate::observe::TileObserver;
 use crate::plan::RenderPlan;
 use crate::sampler::Sampler;
+use crate::samples::Samples;
 use crate::scene::Scene;
 
 /// Paths under way at once: enough to fill the lanes of several materials, few enough for the second cache.
@@ -87,12 +88,12 @@ impl<R: Record + Default> Default for Block<'_, R> {
 }
 
 impl<'a, R: Record + Default> Block<'a, R> {
-    /// Follows a path from each of `samples`, a pixel and a number, and hands its light to `tile`. Says how many rays that took.
+    /// Follows a path from each of `samples` and hands its light to `tile`. Says how many rays that took.
     pub(crate) fn render<T: TileObserver<Record = R>>(
         &mut self,
         scene: &Scene,
         sampler: &'a Sampler,
-        samples: &mut impl Iterator<Item = ([u32; 2], u32)>,
+        samples: &mut Samples,
         tile: &mut Exposed<'_, T>,
     ) -> RayCounts {
         let how = tile.how;
@@ -130,19 +131,19 @@ impl<'a, R: Record + Default> Block<'a, R> {
         plan: &RenderPlan,
         how: &PathIntegrator,
         sampler: &'a Sampler,
-        samples: &mut impl Iterator<Item = ([u32; 2], u32)>,
+        samples: &mut Samples,
     ) -> bool {
         let Block { fresh, paths, families, ended, begun: [places, of], rays, .. } = self;
         let most = if scene.geometry().is_small() { N_PATHS_OF_ROOM } else { N_PATHS };
         let mut room = most.saturating_sub(paths.len() - ended.len()) / how.splits as usize;
-        while room > 0 && fresh.draw(scene, sampler, plan, &mut samples.take(room)) {
+        while room > 0 && fresh.draw(scene, sampler, plan, samples, room) {
             let n = fresh.len();
             places.clear();
             places.extend(ended.drain(ended.len().saturating_sub(n)..).rev());
             places.extend((paths.len() as u32..).take(n - places.len()));
             of.clear();
             if how.splits > 1 {
-                of.extend((0..n).map(|k| families.push(fresh.place(k))));
+                of.extend(fresh.places().map(|place| families.push(place)));
             }
             paths.begin(fresh, places, of);
             rays.camera += n as u64;
@@ -154,7 +155,8 @@ impl<'a, R: Record + Default> Block<'a, R> {
         }
         // From the end, so that what takes the place of a path is under way.
         ended.sort_unstable();
-        ended.drain(..).rev().for_each(|i| paths.remove(i as usize));
+        paths.remove(ended);
+        ended.clear();
         paths.len() > 0
     }
 
@@ -229,13 +231,20 @@ impl<'a, R: Record + Default> Block<'a, R> {
     /// Hands over the light of paths that have ended, whose places are free.
     fn film<T: TileObserver<Record = R>>(&mut self, tile: &mut Exposed<'_, T>) {
         let Block { paths, ended, families, colours, .. } = self;
-        colours.measure(&tile.plan.sensor, paths, ended, |i, rgb| {
-            if tile.how.splits == 1 {
-                tile.take_rgb(paths.place[i], rgb, &paths.lambda(i), &paths.record[i]);
-            } else if let Some((place, parts)) = families.take(paths.family[i], paths.way[i], rgb) {
-                tile.take_parts(place, parts);
-            }
-        });
+        let (plan, place, record) = (tile.plan, &paths.place[..], &paths.record[..paths.place.len()]);
+        colours.measure(
+            &plan.sensor,
+            paths,
+            ended,
+            #[inline(always)]
+            |i, rgb| {
+                if tile.how.splits == 1 {
+                    tile.take_rgb(place[i], rgb, &paths.lambda(i), &record[i]);
+                } else if let Some((place, parts)) = families.take(paths.family[i], paths.way[i], rgb) {
+                    tile.take_parts(place, parts);
+                }
+            },
+        );
     }
 }
 

@@ -67,11 +67,10 @@ impl<R> Default for Paths<'_, R> {
     }
 }
 
-/// Writes a number to each of the `places` of a column.
-#[inline(always)]
-fn put<T>(column: &mut [T], places: &[u32], value: impl Fn(usize) -> T) {
-    for (k, &i) in places.iter().enumerate() {
-        column[i as usize] = value(k);
+/// Takes from a column what belongs to paths that have ended, in the order of their places; the last go to these.
+fn remove<T>(column: &mut Vec<T>, ended: &[u32]) {
+    for &i in ended.iter().rev() {
+        column.swap_remove(i as usize);
     }
 }
 
@@ -117,26 +116,31 @@ impl<R> Paths<'_, R> {
 }
 
 impl<'a, R: Record + Default> Paths<'a, R> {
-    /// Paths of those families begin in those places: of paths that have ended, or behind the last.
+    /// Paths of those families begin in those places: of paths that have ended, then behind the last.
     pub(super) fn begin(&mut self, fresh: &Fresh<'a>, places: &[u32], families: &[u32]) {
-        self.grow(fresh, places);
+        let n = places.last().map_or(0, |i| *i as usize + 1).max(self.len());
+        self.grow(fresh, n);
         fresh.put(places, Ray::rows_mut(&mut self.ray), &mut self.carried, &mut self.found);
-        put(&mut self.place, places, |k| fresh.place(k));
-        put(&mut self.sampler, places, |k| fresh.samplers()[k]);
-        put(&mut self.behind, places, |_| BEGIN);
-        put(&mut self.steps, places, |_| Steps::NONE);
-        put(&mut self.way, places, |_| 0);
-        put(&mut self.family, places, |k| families.get(k).copied().unwrap_or(0));
-        put(&mut self.record, places, |_| R::default());
+        // As long as each other, so that one look at a place is enough.
+        let (place, sampler, behind) = (&mut self.place[..n], &mut self.sampler[..n], &mut self.behind[..n]);
+        let (steps, way, family) = (&mut self.steps[..n], &mut self.way[..n], &mut self.family[..n]);
+        for ((&i, start), numbers) in places.iter().zip(fresh.places()).zip(fresh.samplers()) {
+            let i = i as usize;
+            (place[i], sampler[i]) = (start, *numbers);
+            (behind[i], steps[i], way[i], family[i]) = (BEGIN, Steps::NONE, 0, 0);
+            self.record[i] = R::default();
+        }
+        for (&i, of) in places.iter().zip(families) {
+            family[i as usize] = *of;
+        }
     }
 
-    /// Makes room up to the last of `places`.
-    fn grow(&mut self, fresh: &Fresh<'a>, places: &[u32]) {
-        let n = places.iter().map(|i| *i as usize + 1).fold(self.len(), usize::max);
+    /// Makes room for `n` paths.
+    fn grow(&mut self, fresh: &Fresh<'a>, n: usize) {
         if n == self.len() {
             return;
         }
-        self.place.resize(n, fresh.place(0));
+        self.place.resize(n, FilmPlace::default());
         self.sampler.resize(n, fresh.samplers()[0]);
         self.ray.resize(n, Ray::new(vec3(0.0, 0.0, 0.0), vec3(0.0, 0.0, 0.0)));
         self.found.resize(n, [0.0; 8]);
@@ -187,18 +191,18 @@ impl<'a, R: Record + Default> Paths<'a, R> {
         self.record.clear();
     }
 
-    /// Puts the last path in the place of one that has ended.
-    pub(super) fn remove(&mut self, i: usize) {
-        self.place.swap_remove(i);
-        self.sampler.swap_remove(i);
-        self.ray.swap_remove(i);
-        self.found.swap_remove(i);
-        self.carried.swap_remove(i);
-        self.behind.swap_remove(i);
-        self.steps.swap_remove(i);
-        self.way.swap_remove(i);
-        self.family.swap_remove(i);
-        self.record.swap_remove(i);
+    /// Puts the last paths in the places of those that have `ended`, which stand in order.
+    pub(super) fn remove(&mut self, ended: &[u32]) {
+        remove(&mut self.place, ended);
+        remove(&mut self.sampler, ended);
+        remove(&mut self.ray, ended);
+        remove(&mut self.found, ended);
+        remove(&mut self.carried, ended);
+        remove(&mut self.behind, ended);
+        remove(&mut self.steps, ended);
+        remove(&mut self.way, ended);
+        remove(&mut self.family, ended);
+        remove(&mut self.record, ended);
     }
 }
 
