@@ -21,11 +21,11 @@ impl Answers for Nearest<'_> {
     }
     #[inline(always)]
     fn eight(&mut self, first: usize, hits: &Eight) {
+        let Eight { t, shape, prim, u, v, .. } = hits;
         for (i, out) in self.out[first..first + RAYS].iter_mut().enumerate() {
-            // Worked out where nothing is met too: which rays these are cannot be foreseen.
-            let (raw, met) = hits.get(i);
-            let hit = self.bodies.to_hit(&raw);
-            *out = met.then_some(hit);
+            // Which rays met something cannot be foreseen.
+            let hit = Hit { t: t[i], shape: shape[i], prim: prim[i], u: u[i], v: v[i], instance: None };
+            *out = (hits.hit >> i & 1 == 1).then_some(hit);
         }
     }
 }
@@ -41,7 +41,7 @@ impl Answers for Any<'_> {
     #[inline(always)]
     fn eight(&mut self, first: usize, hits: &Eight) {
         for (i, out) in self.0[first..first + RAYS].iter_mut().enumerate() {
-            *out = hits.get(i).1;
+            *out = hits.hit >> i & 1 == 1;
         }
     }
 }

@@ -56,8 +56,9 @@ pub(crate) trait Floats<const N: usize>:
     fn lt(self, o: Self) -> Self::Mask;
     /// `self[i]` where the mask is true, else `o[i]`.
     fn only_where(self, mask: Self::Mask, o: Self) -> Self;
-    /// `table[at[i] % 4]`, where `at` holds bits of whole numbers.
-    fn pick(table: &[f32; 4], at: Self) -> Self;
+    fn sqrt(self) -> Self;
+    /// The number, negated where `o` has a minus sign.
+    fn signed(self, o: Self) -> Self;
 }
 
 /// A vector unit: its registers of four and of eight numbers.
@@ -68,10 +69,10 @@ pub(crate) trait Simd {
     type F8: Floats<8>;
     /// Number k of each of eight rows, for each k.
     #[inline(always)]
-    fn columns(rows: &[[f32; 8]; 8]) -> [Self::F8; 8] {
+    fn columns(rows: [&[f32; 8]; 8]) -> [Self::F8; 8] {
         let mut columns = [[0.0; 8]; 8];
         for (i, row) in rows.iter().enumerate() {
-            for (column, x) in columns.iter_mut().zip(row) {
+            for (column, x) in columns.iter_mut().zip(*row) {
                 column[i] = *x;
             }
         }
