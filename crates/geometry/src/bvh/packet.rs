@@ -9,7 +9,7 @@ use super::few::{Few, Other};
 use super::ray_data::{PAD, TINY_INV};
 use super::settle::settle;
 use super::traverse::Others;
-use crate::ray::Ray;
+use crate::ray::{Hit, Ray};
 use crate::simd::{Floats, Mask, Simd};
 use sparrow_math::Aabb;
 
@@ -285,17 +285,31 @@ fn number<S: Simd>(i: u32) -> S::F8 {
 /// What eight rays meet.
 #[derive(Default)]
 pub(crate) struct Eight {
-    pub(crate) t: [f32; RAYS],
-    /// Numbers of the shapes and primitives; also where nothing is met.
-    pub(crate) shape: [u32; RAYS],
-    pub(crate) prim: [u32; RAYS],
-    /// Parameters of the primitives.
-    pub(crate) u: [f32; RAYS],
-    pub(crate) v: [f32; RAYS],
+    /// Where along ray i and i + 4, the bits of the numbers of shape and primitive, and the first parameter of the primitive; also where
+    /// nothing is met.
+    pub(super) rows: [[f32; RAYS]; 4],
+    /// The second parameters.
+    pub(super) v: [f32; RAYS],
     /// One bit for each ray that met something.
-    pub(crate) hit: u32,
+    pub(super) hit: u32,
     /// One bit for each that has to be asked by itself instead.
     pub(super) anew: u32,
+}
+
+impl Eight {
+    /// Ray i met something.
+    #[inline(always)]
+    pub(crate) fn met(&self, i: usize) -> bool {
+        self.hit >> i & 1 == 1
+    }
+    /// What ray i met, if it did.
+    #[inline(always)]
+    pub(crate) fn get(&self, i: usize) -> Option<Hit> {
+        let (row, at) = (&self.rows[i % 4], i & 4);
+        let [t, shape, prim, u] = [row[at], row[at + 1], row[at + 2], row[at + 3]];
+        let hit = Hit { t, shape: shape.to_bits(), prim: prim.to_bits(), u, v: self.v[i % RAYS], instance: None };
+        self.met(i).then_some(hit)
+    }
 }
 
 /// The nearest points of eight rays, or with `ANY` no more than whether there are any.

@@ -5,30 +5,25 @@ use super::few::{Few, MAX_PLACES};
 use super::packet::{Eight, Nearest, Packet, RAYS, Vectors, Which};
 use crate::simd::{Floats, Mask, Simd};
 
-/// The axes of eight rays, permuted as for one ray.
+/// The axes of eight rays, the longest of the direction last. Single rays turn the others so that the winding of triangles stays; not
+/// doing so changes signs of edge functions, and nothing else.
 struct Turns<S: Simd> {
-    /// The first axis is y, is z; the second; the third.
-    is: [[Which<S>; 2]; 3],
+    /// The longest is the first, is the second.
+    first: Which<S>,
+    second: Which<S>,
 }
 
 impl<S: Simd> Turns<S> {
     #[inline(always)]
     fn new(d: Vectors<S>) -> Turns<S> {
         let a = [d[0].abs(), d[1].abs(), d[2].abs()];
-        let x = a[1].lt(a[0]) & a[2].lt(a[0]);
-        let y = !a[1].lt(a[0]) & a[2].lt(a[1]);
-        let z = !(x | y);
-        let below = d[0].only_where(x, d[1].only_where(y, d[2])).lt(S::F8::splat(0.0));
-        let above = !below;
-        let first = [x & above | z & below, y & above | x & below];
-        let second = [z & above | x & below, x & above | y & below];
-        Turns { is: [first, second, [y, z]] }
+        let first = a[1].lt(a[0]) & a[2].lt(a[0]);
+        Turns { first, second: a[0].le(a[1]) & a[2].lt(a[1]) }
     }
     #[inline(always)]
     fn of(&self, v: Vectors<S>) -> Vectors<S> {
-        let [[ay, az], [by, bz], [cy, cz]] = self.is;
-        let z = [v[2].only_where(az, v[0]), v[2].only_where(bz, v[0]), v[2].only_where(cz, v[0])];
-        [v[1].only_where(ay, z[0]), v[1].only_where(by, z[1]), v[1].only_where(cy, z[2])]
+        let longest = v[0].only_where(self.first, v[1].only_where(self.second, v[2]));
+        [v[2].only_where(self.first, v[0]), v[2].only_where(self.second, v[1]), longest]
     }
 }
 
@@ -66,7 +61,9 @@ fn triangle<S: Simd>(rays: &Packet<S>, corners: [Vectors<S>; 3]) -> ([S::F8; 3],
     let (least, greatest) = (u.min(v).min(w), u.max(v).max(w));
     let inv = S::F8::splat(1.0) / (u + v + w);
     let t = (u * a[2] + v * b[2] + w * c[2]) * shear.s[2] * inv;
-    let sure = t_error::<S>(&p, &[u, v, w], inv, shear.s[2]).lt(t) & t.lt(rays.t_max);
+    // The bound is rounded otherwise than for single rays, where axes are.
+    let error = t_error::<S>(&p, &[u, v, w], inv, shear.s[2]) * S::F8::splat(1.00001);
+    let sure = error.lt(t) & t.lt(rays.t_max);
     ([t, v * inv, w * inv], (zero.lt(least) | greatest.lt(zero)) & sure)
 }
 
@@ -101,10 +98,7 @@ pub(super) fn settle<S: Simd>(few: &Few, rays: &Packet<S>, nearest: Nearest<S>) 
         v.min(one).only_where(first, sum.only_where(second, v)),
     ];
     Eight {
-        t: t.to_array(),
-        shape: shape.to_array().map(f32::to_bits),
-        prim: prim.to_array().map(f32::to_bits),
-        u: u.to_array(),
+        rows: S::rows([t, shape, prim, u]),
         v: v.to_array(),
         hit,
         anew: (nearest.anew | face & !sure).bits(),

@@ -19,13 +19,11 @@ impl Answers for Nearest<'_> {
     fn one(&mut self, i: usize, hit: Option<RawHit>) {
         self.out[i] = hit.map(|raw| self.bodies.to_hit(&raw));
     }
-    #[inline(always)]
+    // Read from memory in rows, which the compiler would otherwise take to pieces.
+    #[inline(never)]
     fn eight(&mut self, first: usize, hits: &Eight) {
-        let Eight { t, shape, prim, u, v, .. } = hits;
         for (i, out) in self.out[first..first + RAYS].iter_mut().enumerate() {
-            // Which rays met something cannot be foreseen.
-            let hit = Hit { t: t[i], shape: shape[i], prim: prim[i], u: u[i], v: v[i], instance: None };
-            *out = (hits.hit >> i & 1 == 1).then_some(hit);
+            *out = hits.get(i);
         }
     }
 }
@@ -41,7 +39,7 @@ impl Answers for Any<'_> {
     #[inline(always)]
     fn eight(&mut self, first: usize, hits: &Eight) {
         for (i, out) in self.0[first..first + RAYS].iter_mut().enumerate() {
-            *out = hits.hit >> i & 1 == 1;
+            *out = hits.met(i);
         }
     }
 }

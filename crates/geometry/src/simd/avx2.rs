@@ -57,6 +57,10 @@ impl Simd for Avx2 {
         let ([k0, k1, k2, k3], [k4, k5, k6, k7]) = (F8::columns(a, b, c, d), F8::columns(e, f, g, h));
         [k0, k1, k2, k3, k4, k5, k6, k7]
     }
+    #[inline(always)]
+    fn rows([a, b, c, d]: [F8; 4]) -> [[f32; 8]; 4] {
+        F8::columns(a, b, c, d).map(Floats::to_array)
+    }
 }
 
 /// Eight numbers in one register.

@@ -79,6 +79,17 @@ pub(crate) trait Simd {
         let column = |k: usize| Self::F8::load(&columns[k]);
         [column(0), column(1), column(2), column(3), column(4), column(5), column(6), column(7)]
     }
+    /// Rows of four numbers, given number k of each of eight rows for each k: rows i and i + 4, one after the other, for each i.
+    #[inline(always)]
+    fn rows(columns: [Self::F8; 4]) -> [[f32; 8]; 4] {
+        let (columns, mut rows) = (columns.map(Floats::to_array), [[0.0; 8]; 4]);
+        for (i, row) in rows.iter_mut().enumerate() {
+            for (k, column) in columns.iter().enumerate() {
+                (row[k], row[k + 4]) = (column[i], column[i + 4]);
+            }
+        }
+        rows
+    }
 }
 
 /// Something to be computed with a vector unit that is only known when the program runs.
