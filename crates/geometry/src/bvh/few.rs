@@ -4,7 +4,7 @@ use sparrow_math::{Aabb, Vec3};
 
 use super::Bvh;
 use super::block::TriBlock;
-use super::face::Face;
+use super::face::{Face, Frame, Wall};
 
 /// Room for the primitives, of which there are fewer.
 pub(crate) const MAX_PLACES: usize = 64;
@@ -34,7 +34,9 @@ fn rows(owner: Owner, [a, b, c]: [[f32; 3]; 3]) -> Rows {
 /// The leaves of a tree of one node.
 #[derive(Clone, Debug)]
 pub(crate) struct Few {
-    /// Pairs of triangles that are parallelograms.
+    /// Pairs of triangles that are rectangles along the axes, by the axis of their normals.
+    pub(crate) walls: [Vec<Wall>; 3],
+    /// Other pairs that are parallelograms.
     pub(crate) squares: Vec<Face>,
     /// The other triangles.
     pub(crate) triangles: Vec<Face>,
@@ -94,7 +96,8 @@ impl Few {
         ball: impl Fn(u32) -> Option<([f32; 3], f32)>,
     ) -> Option<Few> {
         let [node] = &*bvh.nodes else { return None };
-        let mut alone: Vec<Triangle> = bvh.triangles.iter().flat_map(TriBlock::triangles).map(Triangle::from).collect();
+        let mut alone: Vec<Triangle> =
+            bvh.triangles.iter().flat_map(TriBlock::triangles).map(Triangle::from).collect();
         let mut ids: Vec<u32> = alone.iter().map(|t| t.id).collect();
         ids.sort_unstable();
         if ids.len() > MAX_TRIANGLES || ids.windows(2).any(|two| two[0] == two[1]) {
@@ -104,18 +107,27 @@ impl Few {
         let mut radius = corners.fold(0.0, f64::max);
         let mut all = Vec::new();
         let (mut squares, mut triangles, mut others) = (Vec::new(), Vec::new(), Vec::new());
+        let mut walls = [Vec::new(), Vec::new(), Vec::new()];
         while let Some(one) = alone.pop() {
             let place = all.len() as u32;
-            all.push(rows(owner(one.id), one.corners));
             let half = |(i, other)| Some((i, one.square_with(other)?));
-            let found = alone.iter().enumerate().find_map(half);
-            if let Some((i, corners)) = found {
-                let other = alone.remove(i);
-                all.push(rows(owner(other.id), other.corners));
-                squares.push(Face::square(corners, place)?);
-            } else {
-                triangles.push(Face::triangle(one.exact(), place)?);
+            let Some((i, [p, q, r, across])) = alone.iter().enumerate().find_map(half) else {
+                all.push(rows(owner(one.id), one.corners));
+                triangles.push(Frame::new(one.exact(), &one.exact(), place)?.face());
+                continue;
+            };
+            let other = alone.remove(i);
+            let frame = |[q, r]: [Vec3<f64>; 2]| Frame::new([p, q, r], &[p, q, r, across], place);
+            // The half with the first of the two corners comes first.
+            let (ways, mut halves) = ([frame([q, r])?, frame([r, q])?], [one, other]);
+            match ways.iter().enumerate().find_map(|(n, frame)| Some((n, frame.wall()?))) {
+                Some((n, (axis, wall))) => {
+                    walls[axis].push(wall);
+                    halves.rotate_left(n);
+                }
+                None => squares.extend(ways.into_iter().take(1).map(Frame::face)),
             }
+            all.extend(halves.map(|t| rows(owner(t.id), t.corners)));
         }
         for (i, child) in node.child.iter().enumerate().filter(|(_, c)| c.is_leaf() && c.is_others()) {
             let Some(bounds) = node.bounds_of(i) else { continue };
@@ -130,7 +142,7 @@ impl Few {
         }
         all.resize(MAX_PLACES, [[0.0; 8]; 2]);
         let rows = all.into_boxed_slice().try_into().ok()?;
-        Some(Few { squares, triangles, others, rows, radius: radius as f32 * 1.001 })
+        Some(Few { walls, squares, triangles, others, rows, radius: radius as f32 * 1.001 })
     }
 }
 

@@ -4,7 +4,7 @@
 //! a single ray, to the bit. Where margins leave something open, rays are asked anew one by one.
 
 use super::block::RawHit;
-use super::face::Face;
+use super::face::{Extent, Face, RepeatedVector, Wall};
 use super::few::{Few, Other};
 use super::ray_data::{PAD, TINY_INV};
 use super::settle::settle;
@@ -41,11 +41,6 @@ fn minus<S: Simd>(a: Vectors<S>, b: Vectors<S>) -> Vectors<S> {
 fn dot<S: Simd>(a: Vectors<S>, b: Vectors<S>) -> S::F8 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
-/// The sum of what [`dot`] adds, without signs.
-#[inline(always)]
-fn dot_abs<S: Simd>(a: Vectors<S>, b: Vectors<S>) -> S::F8 {
-    (a[0] * b[0]).abs() + (a[1] * b[1]).abs() + (a[2] * b[2]).abs()
-}
 #[inline(always)]
 fn cross<S: Simd>(a: Vectors<S>, b: Vectors<S>) -> Vectors<S> {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
@@ -59,6 +54,8 @@ fn sum_abs<S: Simd>(v: Vectors<S>) -> S::F8 {
 pub(super) struct Packet<S: Simd> {
     pub(super) o: Vectors<S>,
     pub(super) d: Vectors<S>,
+    /// The product of direction and origin.
+    moment: Vectors<S>,
     pub(super) t_max: S::F8,
     /// The square of the direction's length.
     d2: S::F8,
@@ -85,6 +82,7 @@ impl<S: Simd> Packet<S> {
         Packet {
             o,
             d,
+            moment: cross::<S>(d, o),
             t_max,
             d2: dot::<S>(d, d),
             turn: length * S::F8::splat(ROUNDING),
@@ -117,6 +115,55 @@ fn minus_inv<S: Simd>(d: S::F8) -> S::F8 {
     S::F8::splat(-1.0) * stand_in.only_where(d.abs().lt(S::F8::splat(1e-30)), inv)
 }
 
+/// The plane of a parallelogram as rays see it.
+struct Seen<S: Simd> {
+    /// Its distance.
+    height: S::F8,
+    /// How fast the rays come nearer. All else is multiplied by this.
+    slope: S::F8,
+    /// Coordinates of where they meet it.
+    x: S::F8,
+    y: S::F8,
+}
+
+impl<S: Simd> Seen<S> {
+    #[inline(always)]
+    fn face(rays: &Packet<S>, f: &Face) -> Seen<S> {
+        let normal = load::<S>(&f.normal);
+        Seen {
+            height: S::F8::load(&f.level) - dot::<S>(normal, rays.o),
+            slope: dot::<S>(normal, rays.d),
+            x: line::<S>(rays, &f.of_moment[0], &f.of_direction[0]),
+            y: line::<S>(rays, &f.of_moment[1], &f.of_direction[1]),
+        }
+    }
+    #[inline(always)]
+    fn wall(rays: &Packet<S>, axis: usize, f: &Wall) -> Seen<S> {
+        let [i, j] = [(axis + 1) % 3, (axis + 2) % 3];
+        let to = minus::<S>(load::<S>(&f.center), rays.o);
+        let (height, slope) = (to[axis], rays.d[axis]);
+        Seen {
+            height,
+            slope,
+            x: (height * rays.d[i] - slope * to[i]) * S::F8::load(&f.scales[0]),
+            y: (height * rays.d[j] - slope * to[j]) * S::F8::load(&f.scales[1]),
+        }
+    }
+}
+
+/// A coordinate of the lines of rays.
+#[inline(always)]
+fn line<S: Simd>(rays: &Packet<S>, of_moment: &RepeatedVector, of_direction: &RepeatedVector) -> S::F8 {
+    dot::<S>(load::<S>(of_moment), rays.moment) - dot::<S>(load::<S>(of_direction), rays.d)
+}
+
+/// A dot product, and the sum of what it adds without signs.
+#[inline(always)]
+fn dot_and_terms<S: Simd>(a: Vectors<S>, b: Vectors<S>) -> [S::F8; 2] {
+    let terms = (a[0] * b[0]).abs() + (a[1] * b[1]).abs() + (a[2] * b[2]).abs();
+    [dot::<S>(a, b), terms]
+}
+
 /// What eight rays meet so far.
 pub(super) struct Nearest<S: Simd> {
     /// Between these bounds lies the nearest point, or where the ray ends; they are the same where it is known to the bit.
@@ -136,18 +183,17 @@ pub(super) struct Nearest<S: Simd> {
 }
 
 impl<S: Simd> Nearest<S> {
-    /// Tests a face, which is half a parallelogram where `HALF` says so.
+    /// Tests half of a parallelogram where `HALF` says so, else all of it. `height_of` gives the part of a vector along the normal, and the sum
+    /// without signs of the products that it is the sum of.
     #[inline(always)]
-    fn face<const ANY: bool, const HALF: bool>(&mut self, rays: &Packet<S>, f: &Face) {
-        let zero = S::F8::splat(0.0);
-        let (normal, axes) = (load::<S>(&f.normal), [load::<S>(&f.axes[0]), load::<S>(&f.axes[1])]);
-        let to = minus::<S>(load::<S>(&f.center), rays.o);
-        // The ray's distance from the plane and how fast it comes nearer; all else is multiplied by the latter.
-        let (height, slope) = (dot::<S>(normal, to), dot::<S>(normal, rays.d));
-        let steep = slope.abs();
-        let x = height * dot::<S>(axes[0], rays.d) - slope * dot::<S>(axes[0], to);
-        let y = height * dot::<S>(axes[1], rays.d) - slope * dot::<S>(axes[1], to);
-        let t = height.signed(slope);
+    fn face<const ANY: bool, const HALF: bool>(
+        &mut self,
+        rays: &Packet<S>,
+        f: &Extent,
+        Seen { height, slope, x, y }: Seen<S>,
+        height_of: impl Fn(Vectors<S>) -> [S::F8; 2],
+    ) {
+        let (zero, steep, t) = (S::F8::splat(0.0), slope.abs(), height.signed(slope));
         let (dx, dy) = (rays.slack * S::F8::load(&f.margins[0]), rays.slack * S::F8::load(&f.margins[1]));
         let dt = rays.near * S::F8::load(&f.depth);
         let mut met = x.abs().le(steep + dx) & y.abs().le(steep + dy);
@@ -158,9 +204,11 @@ impl<S: Simd> Nearest<S> {
         if !met.any() {
             return;
         }
-        let aside = S::F8::splat(5.0 * ROUNDING) * dot_abs::<S>(normal, to) + S::F8::splat(f.bent);
+        // A ray leaves its own surface closer than margins can tell.
+        let [height, terms] = height_of(minus::<S>(splat::<S>(f.center), rays.o));
+        let aside = S::F8::splat(5.0 * ROUNDING) * terms + S::F8::splat(f.bent);
         let sided = aside.lt(height.abs()) & (S::F8::splat(4.0) * rays.turn).lt(steep);
-        let met = met & !(sided & t.lt(zero));
+        let met = met & !(sided & height.signed(slope).lt(zero));
         if ANY {
             let mut sure = met & x.abs().lt(steep - dx) & y.abs().lt(steep - dy);
             sure = sure & dt.lt(t) & t.lt(self.t[0] * steep - dt);
@@ -307,7 +355,8 @@ impl Eight {
     pub(crate) fn get(&self, i: usize) -> Option<Hit> {
         let (row, at) = (&self.rows[i % 4], i & 4);
         let [t, shape, prim, u] = [row[at], row[at + 1], row[at + 2], row[at + 3]];
-        let hit = Hit { t, shape: shape.to_bits(), prim: prim.to_bits(), u, v: self.v[i % RAYS], instance: None };
+        let hit =
+            Hit { t, shape: shape.to_bits(), prim: prim.to_bits(), u, v: self.v[i % RAYS], instance: None };
         self.met(i).then_some(hit)
     }
 }
@@ -328,11 +377,19 @@ pub(super) fn hit<S: Simd, const ANY: bool>(few: &Few, list: &[Ray; RAYS], other
         anew: none,
         open: rays.sane,
     };
-    for face in &few.squares {
-        nearest.face::<ANY, false>(&rays, face);
+    for axis in 0..3 {
+        for f in &few.walls[axis] {
+            let seen = Seen::wall(&rays, axis, f);
+            nearest.face::<ANY, false>(&rays, &f.extent, seen, |v| [v[axis], v[axis].abs()]);
+        }
     }
-    for face in &few.triangles {
-        nearest.face::<ANY, true>(&rays, face);
+    for f in &few.squares {
+        let seen = Seen::face(&rays, f);
+        nearest.face::<ANY, false>(&rays, &f.extent, seen, |v| dot_and_terms::<S>(load::<S>(&f.normal), v));
+    }
+    for f in &few.triangles {
+        let seen = Seen::face(&rays, f);
+        nearest.face::<ANY, true>(&rays, &f.extent, seen, |v| dot_and_terms::<S>(load::<S>(&f.normal), v));
     }
     for other in &few.others {
         nearest.other::<ANY>(&rays, other, list, others);
