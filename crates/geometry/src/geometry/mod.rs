@@ -130,7 +130,7 @@ impl Geometry {
             build_seconds: start.elapsed().as_secs_f64(),
         };
         let alone = instances.len() == 0;
-        let few = alone.then(|| Few::new(&bvh, |id| bodies.ball(id))).flatten();
+        let few = alone.then(|| Few::new(&bvh, |id| bodies.owner(id), |id| bodies.ball(id))).flatten();
         progress.finish();
         Geometry { bodies, instances, first_instance, bvh, few, stats }
     }
