@@ -49,7 +49,8 @@ impl<G: FnMut(usize, [f32; 3])> InLanes for Measure<'_, G> {
     type Output = ();
     #[inline(always)]
     fn run<R: Real>(self) {
-        let Measure { sensor, n, found, carried, colours: Colours { which, rgb: [red, green, blue] }, give } = self;
+        let Measure { sensor, n, found, carried, colours: Colours { which, rgb: [red, green, blue] }, give } =
+            self;
         for (k, which) in (0..).step_by(R::WIDTH).zip(which.chunks_exact(R::WIDTH)) {
             let [a, b, c, d, p, q, r, s] = R::gather_rows(found, which);
             let [.., nm0, nm1, nm2, nm3] = R::gather_rows(carried, which);
