@@ -22,12 +22,6 @@ impl Ray {
     pub fn new(o: Vec3<f32>, d: Vec3<f32>) -> Ray {
         Ray { o, d, t_max: f32::INFINITY, time: 0.0 }
     }
-    /// Its numbers in the order of the fields.
-    #[inline(always)]
-    pub(crate) fn to_array(self) -> [f32; 8] {
-        let Ray { o, d, t_max, time } = self;
-        [o.x, o.y, o.z, d.x, d.y, d.z, t_max, time]
-    }
     /// The numbers of rays, each in the order of its fields.
     #[inline(always)]
     #[allow(unsafe_code, reason = "rays in lanes are read and written as rows")]
@@ -41,6 +35,11 @@ impl Ray {
     pub fn rows_mut(rays: &mut [Ray]) -> &mut [[f32; 8]] {
         // SAFETY: as above; any eight numbers are a ray.
         unsafe { core::slice::from_raw_parts_mut(rays.as_mut_ptr().cast(), rays.len()) }
+    }
+    /// Its numbers in the order of the fields.
+    #[inline(always)]
+    pub(crate) fn row(&self) -> &[f32; 8] {
+        &Ray::rows(core::slice::from_ref(self))[0]
     }
     /// The point at parameter `t`.
     #[inline]
@@ -85,7 +84,7 @@ mod tests {
             ..Ray::new(vec3(x, x + 1.0, x + 2.0), vec3(x + 3.0, x + 4.0, x + 5.0))
         };
         let mut rays = [ray(0.0), ray(10.0)];
-        assert_eq!(Ray::rows(&rays), [[0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0], ray(10.0).to_array()]);
+        assert_eq!(Ray::rows(&rays), [[0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0], *ray(10.0).row()]);
         Ray::rows_mut(&mut rays)[1][4] = 99.0;
         assert_eq!(rays[1].d.y, 99.0);
     }

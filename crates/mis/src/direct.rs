@@ -59,8 +59,8 @@ impl Mis {
         self.weight(p_light, p_bsdf, 0)
     }
     /// Weight of a light that a direction from the BSDF found, over the chance of its turn: density `p_bsdf` against `p_light`.
-    #[inline]
-    pub fn bsdf_weight(self, p_bsdf: f32, p_light: f32) -> f32 {
+    #[inline(always)]
+    pub fn bsdf_weight<R: Real>(self, p_bsdf: R, p_light: R) -> R {
         self.weight(p_light, p_bsdf, 1)
     }
     /// Weight of a sample of a light that no direction can find by chance, a point or a sun, over the chance of its turn.

@@ -64,7 +64,7 @@ fn sheared<S: Simd>(p: &[[f32; LEAF_SIZE]; 3], r: &RayData<S>) -> [LeafFloats<S>
 
 /// Bound of the error of `t`, for corners `p` in sheared space and edge functions `e`. [PharrJakobHumphreys2023, section 6.8.7]
 #[inline(always)]
-fn t_error<S: Simd>(
+pub(super) fn t_error<S: Simd>(
     p: &[[LeafFloats<S>; 3]; 3],
     e: &[LeafFloats<S>; 3],
     inv: LeafFloats<S>,

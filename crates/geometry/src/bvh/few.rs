@@ -1,63 +1,50 @@
 //! A tree of one node, laid out for many rays at once: [`Few`].
 
-use core::ops::Range;
-
-use sparrow_math::{Aabb, vec3};
+use sparrow_math::{Aabb, Vec3};
 
 use super::Bvh;
 use super::block::TriBlock;
+use super::face::{Face, Frame, Wall};
 
-/// Most corners, doubles not counted.
-pub(crate) const MAX_VERTICES: usize = 64;
+/// Room for the primitives, of which there are fewer.
+pub(crate) const MAX_PLACES: usize = 64;
 /// Most triangles.
 const MAX_TRIANGLES: usize = 40;
 
-/// Numbers of a triangle's corners.
-pub(crate) type Corners = [u8; 3];
-
-/// A triangle, or two that share a side and lie in a plane: rays of both go through that side.
+/// What a hit tells of a primitive of the tree.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Pair {
-    pub(crate) first: Corners,
-    pub(crate) second: Option<Corners>,
-    ids: [u32; 2],
+pub(crate) struct Owner {
+    pub(crate) shape: u32,
+    pub(crate) prim: u32,
+    /// It is the first, or the second of the two triangles of a parallelogram.
+    pub(crate) half: [bool; 2],
 }
 
-impl Pair {
-    fn alone(corners: Corners, id: u32) -> Pair {
-        Pair { first: corners, second: None, ids: [id; 2] }
-    }
-    /// A triangle alone with another one.
-    fn with(&self, other: &Pair, vertices: &[[f32; 4]]) -> Option<Pair> {
-        let (p, q) = (self.first, other.first);
-        // Seen from the same side, triangles go opposite ways along the side that they share.
-        let sides = |[a, b, c]: Corners| [[a, b], [b, c], [c, a]];
-        let share = sides(p).iter().any(|&[a, b]| sides(q).contains(&[b, a]));
-        let normal = |corners: Corners| {
-            let [a, b, c] = corners.map(|i| {
-                let [x, y, z, _] = vertices[usize::from(i)];
-                vec3(x, y, z).to_f64()
-            });
-            (b - a).cross(c - a)
-        };
-        // Less than three degrees apart. Of planes that are not the same some rays are asked anew, no more.
-        let (n, m) = (normal(p), normal(q));
-        let flat = n.dot(m) > 0.999 * n.length() * m.length();
-        (share && flat).then_some(Pair { second: Some(q), ids: [self.ids[0], other.ids[0]], ..*self })
-    }
+/// A primitive as rows of eight numbers: the corners of a triangle, one after the other, then the bits of the shape's and the
+/// primitive's numbers, and ones where it is the first or the second half of a parallelogram.
+pub(crate) type Rows = [[f32; 8]; 2];
+
+fn rows(owner: Owner, [a, b, c]: [[f32; 3]; 3]) -> Rows {
+    let Owner { shape, prim, half: [first, second] } = owner;
+    let which = [f32::from(u8::from(first)), f32::from(u8::from(second))];
+    let [shape, prim] = [shape, prim].map(f32::from_bits);
+    [[a[0], a[1], a[2], b[0], b[1], b[2], c[0], c[1]], [c[2], shape, prim, which[0], which[1], 0.0, 0.0, 0.0]]
 }
 
-/// The leaves of a tree of one node; corners that triangles share are there once.
-#[derive(Clone, Debug, Default)]
+/// The leaves of a tree of one node.
+#[derive(Clone, Debug)]
 pub(crate) struct Few {
-    /// `x y z 0`
-    pub(crate) vertices: Vec<[f32; 4]>,
-    pub(crate) pairs: Vec<Pair>,
-    /// Boxes of the leaves that hold triangles, and which.
-    pub(crate) leaves: Vec<(Aabb, Range<usize>)>,
+    /// Pairs of triangles that are rectangles along the axes, by the axis of their normals.
+    pub(crate) walls: [Vec<Wall>; 3],
+    /// Other pairs that are parallelograms.
+    pub(crate) squares: Vec<Face>,
+    /// The other triangles.
+    pub(crate) triangles: Vec<Face>,
     pub(crate) others: Vec<Other>,
-    /// Numbers among the primitives of the tree: two for each pair, one for each other.
-    pub(crate) ids: Vec<u32>,
+    /// All primitives, each in its place.
+    pub(crate) rows: Box<[Rows; MAX_PLACES]>,
+    /// Nothing lies further from the origin.
+    pub(crate) radius: f32,
 }
 
 /// A primitive that is not a triangle.
@@ -65,59 +52,102 @@ pub(crate) struct Few {
 pub(crate) struct Other {
     pub(crate) bounds: Aabb,
     pub(crate) id: u32,
+    pub(crate) place: u32,
     /// Centre and radius of a ball that holds it; rounded to the nearest.
     pub(crate) ball: ([f32; 3], f32),
 }
 
+/// A triangle of the tree.
+#[derive(Clone, Copy)]
+struct Triangle {
+    id: u32,
+    corners: [[f32; 3]; 3],
+}
+
+impl Triangle {
+    fn exact(&self) -> [Vec3<f64>; 3] {
+        self.corners.map(|c| Vec3::from(c).to_f64())
+    }
+    /// The corners of the parallelogram that this triangle is half of, and `other` the other half: one, that across the side which they
+    /// share in this triangle and the other, and the last.
+    fn square_with(&self, other: &Triangle) -> Option<[Vec3<f64>; 4]> {
+        let turned = |[a, b, c]: [[f32; 3]; 3]| [[a, b, c], [b, c, a], [c, a, b]];
+        let bits = |c: [f32; 3]| c.map(f32::to_bits);
+        // Seen from the same side, triangles go opposite ways along the side that they share.
+        let shared = |[a, b, c]: [[f32; 3]; 3]| {
+            let opposite = |[d, e, _]: &[[f32; 3]; 3]| bits(a) == bits(*e) && bits(b) == bits(*d);
+            turned(other.corners).into_iter().find(opposite).map(|[_, _, f]| [a, c, f, b])
+        };
+        let corners = turned(self.corners).into_iter().find_map(shared)?;
+        let [p, q, r, across] = corners.map(|c| Vec3::from(c).to_f64());
+        let largest = corners.as_flattened().iter().fold(0.0, |a: f32, x| a.max(x.abs()));
+        let miss = (p + across - q - r).abs().max_component();
+        (miss <= f64::from(4.0 * f32::EPSILON * largest)).then_some([p, q, r, across])
+    }
+}
+
 impl Few {
     /// Takes the leaves of `bvh`. `None` where it has more than a node, or more of anything than pays; where a triangle
-    /// lies in two leaves; or where `ball` has none to hold another primitive. Of those that have one, the points that a ray is
-    /// offered must not depend on where the ray ends.
-    pub(crate) fn new(bvh: &Bvh, ball: impl Fn(u32) -> Option<([f32; 3], f32)>) -> Option<Few> {
+    /// lies in two leaves or is too narrow; or where `ball` has none to hold another primitive. Of those that have one, the points that a
+    /// ray is offered must not depend on where the ray ends.
+    pub(crate) fn new(
+        bvh: &Bvh,
+        owner: impl Fn(u32) -> Owner,
+        ball: impl Fn(u32) -> Option<([f32; 3], f32)>,
+    ) -> Option<Few> {
         let [node] = &*bvh.nodes else { return None };
-        let mut few = Few::default();
-        for (i, child) in node.child.iter().enumerate().filter(|(_, c)| c.is_leaf()) {
-            let Some(bounds) = node.bounds_of(i) else { continue };
-            if child.is_others() {
-                let id = child.index() as u32;
-                few.others.push(Other { bounds, id, ball: ball(id)? });
-            } else {
-                let first = few.pairs.len();
-                few.add(bvh.triangles.get(child.index())?)?;
-                few.leaves.push((bounds, first..few.pairs.len()));
-            }
-        }
-        let mut ids: Vec<u32> = bvh.triangles.iter().flat_map(TriBlock::triangles).map(|t| t.0).collect();
+        let mut alone: Vec<Triangle> =
+            bvh.triangles.iter().flat_map(TriBlock::triangles).map(Triangle::from).collect();
+        let mut ids: Vec<u32> = alone.iter().map(|t| t.id).collect();
         ids.sort_unstable();
-        let twice = ids.windows(2).any(|two| two[0] == two[1]);
-        few.ids = few.pairs.iter().flat_map(|p| p.ids).chain(few.others.iter().map(|o| o.id)).collect();
-        (!twice && ids.len() <= MAX_TRIANGLES && !few.ids.is_empty()).then_some(few)
-    }
-
-    /// Adds the triangles of a block, in pairs where they share a side; `None` where their corners are too many.
-    fn add(&mut self, block: &TriBlock) -> Option<()> {
-        let mut alone = Vec::new();
-        for (id, corners) in block.triangles() {
-            let mut numbers = [0; 3];
-            for (to, [x, y, z]) in numbers.iter_mut().zip(corners) {
-                let v = [x, y, z, 0.0];
-                let same = |w: &[f32; 4]| w.map(f32::to_bits) == v.map(f32::to_bits);
-                let at = self.vertices.iter().position(same).unwrap_or(self.vertices.len());
-                if at == self.vertices.len() {
-                    self.vertices.push(v);
-                }
-                *to = u8::try_from(at).ok().filter(|&at| usize::from(at) < MAX_VERTICES)?;
-            }
-            alone.push(Pair::alone(numbers, id));
+        if ids.len() > MAX_TRIANGLES || ids.windows(2).any(|two| two[0] == two[1]) {
+            return None;
         }
+        let corners = alone.iter().flat_map(|t| t.exact()).map(Vec3::length);
+        let mut radius = corners.fold(0.0, f64::max);
+        let mut all = Vec::new();
+        let (mut squares, mut triangles, mut others) = (Vec::new(), Vec::new(), Vec::new());
+        let mut walls = [Vec::new(), Vec::new(), Vec::new()];
         while let Some(one) = alone.pop() {
-            let with = |(i, other)| Some((i, one.with(other, &self.vertices)?));
-            let found = alone.iter().enumerate().find_map(with);
-            if let Some((i, _)) = found {
-                alone.remove(i);
+            let place = all.len() as u32;
+            let half = |(i, other)| Some((i, one.square_with(other)?));
+            let Some((i, [p, q, r, across])) = alone.iter().enumerate().find_map(half) else {
+                all.push(rows(owner(one.id), one.corners));
+                triangles.push(Frame::new(one.exact(), &one.exact(), place)?.face());
+                continue;
+            };
+            let other = alone.remove(i);
+            let frame = |[q, r]: [Vec3<f64>; 2]| Frame::new([p, q, r], &[p, q, r, across], place);
+            // The half with the first of the two corners comes first.
+            let (ways, mut halves) = ([frame([q, r])?, frame([r, q])?], [one, other]);
+            match ways.iter().enumerate().find_map(|(n, frame)| Some((n, frame.wall()?))) {
+                Some((n, (axis, wall))) => {
+                    walls[axis].push(wall);
+                    halves.rotate_left(n);
+                }
+                None => squares.extend(ways.into_iter().take(1).map(Frame::face)),
             }
-            self.pairs.push(found.map_or(one, |(_, pair)| pair));
+            all.extend(halves.map(|t| rows(owner(t.id), t.corners)));
         }
-        Some(())
+        for (i, child) in node.child.iter().enumerate().filter(|(_, c)| c.is_leaf() && c.is_others()) {
+            let Some(bounds) = node.bounds_of(i) else { continue };
+            let (id, place) = (child.index() as u32, all.len() as u32);
+            let ball = ball(id)?;
+            radius = radius.max(Vec3::from(ball.0).to_f64().length() + f64::from(ball.1));
+            all.push(rows(owner(id), [[0.0; 3]; 3]));
+            others.push(Other { bounds, id, place, ball });
+        }
+        if all.is_empty() {
+            return None;
+        }
+        all.resize(MAX_PLACES, [[0.0; 8]; 2]);
+        let rows = all.into_boxed_slice().try_into().ok()?;
+        Some(Few { walls, squares, triangles, others, rows, radius: radius as f32 * 1.001 })
+    }
+}
+
+impl From<(u32, [[f32; 3]; 3])> for Triangle {
+    fn from((id, corners): (u32, [[f32; 3]; 3])) -> Triangle {
+        Triangle { id, corners }
     }
 }

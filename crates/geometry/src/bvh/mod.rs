@@ -5,12 +5,14 @@
 
 mod block;
 mod build;
+mod face;
 mod few;
 mod motion;
 mod node;
 mod packet;
 mod pages;
 mod ray_data;
+mod settle;
 mod stack;
 #[cfg(test)]
 mod tests;
@@ -18,7 +20,7 @@ mod traverse;
 
 pub(crate) use block::{RawHit, TriBlock, gamma};
 pub(crate) use build::PrimRef;
-pub(crate) use few::Few;
+pub(crate) use few::{Few, Owner};
 pub(crate) use motion::MotionBvh;
 pub(crate) use node::Kind;
 use node::{Child, Node};

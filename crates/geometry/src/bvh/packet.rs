@@ -1,318 +1,326 @@
 //! Eight rays at once through a tree of one node.
 //!
-//! Lanes are rays, each with axes of its own. A lane computes what [`TriBlock`](super::block::TriBlock) does, to the bit,
-//! but meets the leaves in another order. That matters where two points lie equally far, where a point is computed to lie
-//! before its leaf's box, or where a triangle has to be settled in double precision: such rays are asked anew one by one.
+//! Lanes are rays. Rounded numbers with margins tell which rays miss what; what the nearest is for each ray is then worked out as for
+//! a single ray, to the bit. Where margins leave something open, rays are asked anew one by one.
 
-use super::block::{RawHit, gamma};
-use super::few::{Corners, Few, MAX_VERTICES, Other, Pair};
+use super::block::RawHit;
+use super::face::{Extent, Face, RepeatedVector, Wall};
+use super::few::{Few, Other};
 use super::ray_data::{PAD, TINY_INV};
+use super::settle::settle;
 use super::traverse::Others;
-use crate::ray::Ray;
+use crate::ray::{Hit, Ray};
 use crate::simd::{Floats, Mask, Simd};
 use sparrow_math::Aabb;
 
 /// Rays of a packet.
 pub(crate) const RAYS: usize = 8;
 
+/// Half a unit in the last place of one: what a rounding errs at most.
+const ROUNDING: f32 = 0.5 * f32::EPSILON;
+
 /// One truth value for each ray.
-type Which<S> = <<S as Simd>::F8 as Floats<8>>::Mask;
+pub(super) type Which<S> = <<S as Simd>::F8 as Floats<8>>::Mask;
 
-/// A corner in the sheared spaces of eight rays.
-pub(super) type Sheared<S> = [<S as Simd>::F8; 3];
+/// A vector for each ray.
+pub(super) type Vectors<S> = [<S as Simd>::F8; 3];
 
-/// Room for the corners of a tree.
 #[inline(always)]
-pub(super) fn room<S: Simd>() -> [Sheared<S>; MAX_VERTICES] {
-    [[S::F8::splat(0.0); 3]; MAX_VERTICES]
+fn load<S: Simd>(v: &[[f32; RAYS]; 3]) -> Vectors<S> {
+    [S::F8::load(&v[0]), S::F8::load(&v[1]), S::F8::load(&v[2])]
+}
+#[inline(always)]
+fn splat<S: Simd>(v: [f32; 3]) -> Vectors<S> {
+    [S::F8::splat(v[0]), S::F8::splat(v[1]), S::F8::splat(v[2])]
+}
+#[inline(always)]
+fn minus<S: Simd>(a: Vectors<S>, b: Vectors<S>) -> Vectors<S> {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+#[inline(always)]
+fn dot<S: Simd>(a: Vectors<S>, b: Vectors<S>) -> S::F8 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+#[inline(always)]
+fn cross<S: Simd>(a: Vectors<S>, b: Vectors<S>) -> Vectors<S> {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+#[inline(always)]
+fn sum_abs<S: Simd>(v: Vectors<S>) -> S::F8 {
+    v[0].abs() + v[1].abs() + v[2].abs()
 }
 
-/// Eight rays, with what [`RayData`](super::ray_data::RayData) knows of one.
-struct Packet<S: Simd> {
-    o: [S::F8; 3],
-    d: [S::F8; 3],
-    minus_inv_near: [S::F8; 3],
-    minus_inv_far: [S::F8; 3],
-    k: [S::F8; 3],
-    o_k: [S::F8; 3],
-    s: [S::F8; 3],
-    t_max: S::F8,
-    /// Rays that can meet something.
-    valid: Which<S>,
-}
-
-/// The axes of eight rays, permuted as for one ray.
-struct Turns<S: Simd> {
-    /// The first axis is y, is z; the second; the third.
-    is: [[Which<S>; 2]; 3],
-}
-
-impl<S: Simd> Turns<S> {
-    #[inline(always)]
-    fn new(d: [S::F8; 3]) -> Turns<S> {
-        let a = [d[0].abs(), d[1].abs(), d[2].abs()];
-        let x = a[1].lt(a[0]) & a[2].lt(a[0]);
-        let y = !a[1].lt(a[0]) & a[2].lt(a[1]);
-        let z = !(x | y);
-        let below = d[0].only_where(x, d[1].only_where(y, d[2])).lt(S::F8::splat(0.0));
-        let above = !below;
-        let first = [x & above | z & below, y & above | x & below];
-        let second = [z & above | x & below, x & above | y & below];
-        Turns { is: [first, second, [y, z]] }
-    }
-    /// Numbers of the axes, as bits.
-    #[inline(always)]
-    fn k(&self) -> [S::F8; 3] {
-        self.of([
-            S::F8::splat(f32::from_bits(0)),
-            S::F8::splat(f32::from_bits(1)),
-            S::F8::splat(f32::from_bits(2)),
-        ])
-    }
-    #[inline(always)]
-    fn of(&self, v: [S::F8; 3]) -> [S::F8; 3] {
-        let [[ay, az], [by, bz], [cy, cz]] = self.is;
-        let z = [v[2].only_where(az, v[0]), v[2].only_where(bz, v[0]), v[2].only_where(cz, v[0])];
-        [v[1].only_where(ay, z[0]), v[1].only_where(by, z[1]), v[1].only_where(cy, z[2])]
-    }
+/// Eight rays.
+pub(super) struct Packet<S: Simd> {
+    pub(super) o: Vectors<S>,
+    pub(super) d: Vectors<S>,
+    /// The product of direction and origin.
+    moment: Vectors<S>,
+    pub(super) t_max: S::F8,
+    /// The square of the direction's length.
+    d2: S::F8,
+    /// What products of the direction and unit vectors err by, times a quarter.
+    turn: S::F8,
+    /// What distances from the origin may err by in a rounding: nothing lies further from it.
+    near: S::F8,
+    /// The same times the length of the direction, which is rounded up.
+    slack: S::F8,
+    /// Neither origins nor directions are so large or small that margins are of no use, nor is the end before the start.
+    sane: Which<S>,
 }
 
 impl<S: Simd> Packet<S> {
     #[inline(always)]
-    fn new(rays: &[Ray; RAYS]) -> Packet<S> {
-        let row = |i: usize| rays[i].to_array();
-        let rows = [row(0), row(1), row(2), row(3), row(4), row(5), row(6), row(7)];
-        let [ox, oy, oz, dx, dy, dz, t_max, _] = S::columns(&rows);
+    fn new(rays: &[Ray; RAYS], radius: f32) -> Packet<S> {
+        let [ox, oy, oz, dx, dy, dz, t_max, _] = S::columns(rays.each_ref().map(Ray::row));
         let (o, d) = ([ox, oy, oz], [dx, dy, dz]);
-        let turns = Turns::<S>::new(d);
-        let d_k = turns.of(d);
-        let sz = S::F8::splat(1.0) / d_k[2];
-        let minus_inv = [minus_inv::<S>(d[0]), minus_inv::<S>(d[1]), minus_inv::<S>(d[2])];
-        let valid = finite::<S>(o[0]) & finite::<S>(o[1]) & finite::<S>(o[2]) & finite::<S>(sz);
+        let (far, length) = (sum_abs::<S>(o) + S::F8::splat(radius), sum_abs::<S>(d));
+        let (small, large) = (S::F8::splat(1e-9), S::F8::splat(1e9));
+        let size = far * length;
+        let sane = small.lt(length) & length.lt(large) & far.lt(large);
+        let near = far * S::F8::splat(ROUNDING);
         Packet {
             o,
             d,
-            minus_inv_near: scaled::<S>(minus_inv, 1.0 - PAD),
-            minus_inv_far: scaled::<S>(minus_inv, 1.0 + PAD),
-            k: turns.k(),
-            o_k: turns.of(o),
-            s: [d_k[0] * sz, d_k[1] * sz, sz],
+            moment: cross::<S>(d, o),
             t_max,
-            valid: valid & finite::<S>(d[0]) & finite::<S>(d[1]) & finite::<S>(d[2]),
+            d2: dot::<S>(d, d),
+            turn: length * S::F8::splat(ROUNDING),
+            near,
+            slack: near * length,
+            sane: sane & S::F8::splat(1e-12).lt(size) & S::F8::splat(0.0).le(t_max),
         }
-    }
-
-    /// Where the rays cross the faces of a box across an axis.
-    #[inline(always)]
-    fn interval(&self, b: &Aabb, axis: usize) -> (S::F8, S::F8) {
-        let (p, q) = (self.o[axis] - S::F8::splat(b.lo[axis]), self.o[axis] - S::F8::splat(b.hi[axis]));
-        // The nearer face gives the smaller product: rounding keeps order.
-        let (near, far) = (self.minus_inv_near[axis], self.minus_inv_far[axis]);
-        ((p * near).min(q * near), (p * far).max(q * far))
     }
 
     /// Rays that meet a box between 0 and `t_max`, and where they enter it.
     #[inline(always)]
     fn meets(&self, b: &Aabb, t_max: S::F8) -> (Which<S>, S::F8) {
-        let [(x0, x1), (y0, y1), (z0, z1)] = [self.interval(b, 0), self.interval(b, 1), self.interval(b, 2)];
-        let t0 = x0.max_nonneg(y0).max_nonneg(z0.max_nonneg(S::F8::splat(0.0)));
-        let t1 = x1.min_nonneg(y1).min_nonneg(z1.min_nonneg(t_max));
+        let (mut t0, mut t1) = (S::F8::splat(0.0), t_max);
+        for axis in 0..3 {
+            let minus_inv = minus_inv::<S>(self.d[axis]);
+            let (near, far) = (minus_inv * S::F8::splat(1.0 - PAD), minus_inv * S::F8::splat(1.0 + PAD));
+            let (p, q) = (self.o[axis] - S::F8::splat(b.lo[axis]), self.o[axis] - S::F8::splat(b.hi[axis]));
+            // The nearer face gives the smaller product: rounding keeps order.
+            t0 = (p * near).min(q * near).max_nonneg(t0);
+            t1 = (p * far).max(q * far).min_nonneg(t1);
+        }
         (t0.le(t1), t0)
     }
-
-    /// Rays whose lines do not clearly miss a ball: by a hundredfold of what rounding can do here.
-    #[inline(always)]
-    fn reaches(&self, &(center, radius): &([f32; 3], f32)) -> Which<S> {
-        let [x, y, z] = [center[0], center[1], center[2]];
-        let (x, y, z) =
-            (self.o[0] - S::F8::splat(x), self.o[1] - S::F8::splat(y), self.o[2] - S::F8::splat(z));
-        let [dx, dy, dz] = self.d;
-        let (p, q, r) = (y * dz - z * dy, z * dx - x * dz, x * dy - y * dx);
-        let far = S::F8::splat(1e-5) * (x.abs() + y.abs() + z.abs());
-        let around = 1e-5 * (center[0].abs() + center[1].abs() + center[2].abs());
-        let reach = S::F8::splat(1.0001 * radius + around) + far;
-        // What is not a number misses nothing.
-        !((dx * dx + dy * dy + dz * dz) * reach * reach).lt(p * p + q * q + r * r)
-    }
-
-    /// Brings corners to where the rays run along z from the origin, and bounds the error of `t` of any triangle of theirs:
-    /// by the first number, and the second times the reciprocal of the sum of edge functions.
-    #[inline(always)]
-    fn shear(&self, vertices: &[[f32; 4]], out: &mut [Sheared<S>; MAX_VERTICES]) -> [S::F8; 2] {
-        let mut most = [S::F8::splat(0.0); 3];
-        for (v, out) in vertices.iter().zip(out) {
-            let z = S::F8::pick(v, self.k[2]) - self.o_k[2];
-            let x = S::F8::pick(v, self.k[0]) - self.o_k[0] - self.s[0] * z;
-            let y = S::F8::pick(v, self.k[1]) - self.o_k[1] - self.s[1] * z;
-            most = [most[0].max(x.abs()), most[1].max(y.abs()), most[2].max(z.abs())];
-            *out = [x, y, z];
-        }
-        let [x, y, depth] = most;
-        let z = depth * self.s[2].abs();
-        let (g2, g5) = (S::F8::splat(gamma(2)), S::F8::splat(gamma(5)));
-        let (dx, dy) = (g5 * (x + depth), g5 * (y + depth));
-        let de = S::F8::splat(2.0) * (g2 * x * y + dy * x + dx * y);
-        // As in a block, where an edge function is not larger than the sum; and a thousandth for other roundings.
-        [S::F8::splat(6.01 * gamma(3)) * z, S::F8::splat(3.01) * de * z]
-    }
-}
-
-/// Rays whose number is finite.
-#[inline(always)]
-fn finite<S: Simd>(v: S::F8) -> Which<S> {
-    v.abs().lt(S::F8::splat(f32::INFINITY))
-}
-
-#[inline(always)]
-fn scaled<S: Simd>(v: [S::F8; 3], by: f32) -> [S::F8; 3] {
-    [v[0] * S::F8::splat(by), v[1] * S::F8::splat(by), v[2] * S::F8::splat(by)]
 }
 
 /// Reciprocals, negated.
 #[inline(always)]
 fn minus_inv<S: Simd>(d: S::F8) -> S::F8 {
-    let (inv, small) = (S::F8::splat(1.0) / d, d.abs().lt(S::F8::splat(1e-30)));
-    S::F8::splat(-1.0) * if !small.any() { inv } else { stand_in::<S>(d).only_where(small, inv) }
+    let (inv, stand_in) = (S::F8::splat(1.0) / d, S::F8::splat(TINY_INV).signed(d));
+    S::F8::splat(-1.0) * stand_in.only_where(d.abs().lt(S::F8::splat(1e-30)), inv)
 }
 
-/// The reciprocals that stand in for those of directions next to zero.
-#[inline(always)]
-fn stand_in<S: Simd>(d: S::F8) -> S::F8 {
-    let mut d = d.to_array();
-    for d in &mut d {
-        *d = TINY_INV.copysign(*d);
+/// The plane of a parallelogram as rays see it.
+struct Seen<S: Simd> {
+    /// Its distance.
+    height: S::F8,
+    /// How fast the rays come nearer. All else is multiplied by this.
+    slope: S::F8,
+    /// Coordinates of where they meet it.
+    x: S::F8,
+    y: S::F8,
+}
+
+impl<S: Simd> Seen<S> {
+    #[inline(always)]
+    fn face(rays: &Packet<S>, f: &Face) -> Seen<S> {
+        let normal = load::<S>(&f.normal);
+        Seen {
+            height: S::F8::load(&f.level) - dot::<S>(normal, rays.o),
+            slope: dot::<S>(normal, rays.d),
+            x: line::<S>(rays, &f.of_moment[0], &f.of_direction[0]),
+            y: line::<S>(rays, &f.of_moment[1], &f.of_direction[1]),
+        }
     }
-    S::F8::load(&d)
+    #[inline(always)]
+    fn wall(rays: &Packet<S>, axis: usize, f: &Wall) -> Seen<S> {
+        let [i, j] = [(axis + 1) % 3, (axis + 2) % 3];
+        let to = minus::<S>(load::<S>(&f.center), rays.o);
+        let (height, slope) = (to[axis], rays.d[axis]);
+        Seen {
+            height,
+            slope,
+            x: (height * rays.d[i] - slope * to[i]) * S::F8::load(&f.scales[0]),
+            y: (height * rays.d[j] - slope * to[j]) * S::F8::load(&f.scales[1]),
+        }
+    }
+}
+
+/// A coordinate of the lines of rays.
+#[inline(always)]
+fn line<S: Simd>(rays: &Packet<S>, of_moment: &RepeatedVector, of_direction: &RepeatedVector) -> S::F8 {
+    dot::<S>(load::<S>(of_moment), rays.moment) - dot::<S>(load::<S>(of_direction), rays.d)
+}
+
+/// A dot product, and the sum of what it adds without signs.
+#[inline(always)]
+fn dot_and_terms<S: Simd>(a: Vectors<S>, b: Vectors<S>) -> [S::F8; 2] {
+    let terms = (a[0] * b[0]).abs() + (a[1] * b[1]).abs() + (a[2] * b[2]).abs();
+    [dot::<S>(a, b), terms]
 }
 
 /// What eight rays meet so far.
-struct Nearest<S: Simd> {
-    t: S::F8,
-    /// The place in [`Few::ids`], as bits.
-    place: S::F8,
-    u: S::F8,
-    v: S::F8,
+pub(super) struct Nearest<S: Simd> {
+    /// Between these bounds lies the nearest point, or where the ray ends; they are the same where it is known to the bit.
+    pub(super) t: [S::F8; 2],
+    /// The place in [`Few::rows`], as bits.
+    pub(super) place: S::F8,
+    /// Parameters of points that are not those of faces.
+    pub(super) uv: [S::F8; 2],
     /// Rays that met something.
-    hit: Which<S>,
+    pub(super) hit: Which<S>,
+    /// Those of them whose nearest point is that of a face.
+    pub(super) face: Which<S>,
     /// Rays to be asked anew.
-    anew: Which<S>,
+    pub(super) anew: Which<S>,
     /// Rays that look on.
     open: Which<S>,
 }
 
 impl<S: Simd> Nearest<S> {
-    /// Tests pair `i` for the rays `met`, which enter its leaf at `t0`.
+    /// Tests half of a parallelogram where `HALF` says so, else all of it. `height_of` gives the part of a vector along the normal, and the sum
+    /// without signs of the products that it is the sum of.
     #[inline(always)]
-    fn pair<const ANY: bool>(
+    fn face<const ANY: bool, const HALF: bool>(
         &mut self,
-        (i, pair): (u32, &Pair),
-        (met, t0): (Which<S>, S::F8),
-        (corners, error, sz): (&[Sheared<S>; MAX_VERTICES], &[S::F8; 2], S::F8),
+        rays: &Packet<S>,
+        f: &Extent,
+        Seen { height, slope, x, y }: Seen<S>,
+        height_of: impl Fn(Vectors<S>) -> [S::F8; 2],
     ) {
-        let of = |[a, b, c]: Corners| [a, b, c].map(|i| &corners[usize::from(i) % MAX_VERTICES]);
-        let (first, met) = (Edges::<S>::new(of(pair.first)), met & self.open);
-        let inside = first.inside();
-        let Some(second) = pair.second.map(of).map(Edges::<S>::new) else {
-            if (inside & met).any() {
-                self.triangle::<ANY>(&first, inside & met, (number::<S>(2 * i), t0), (error, sz));
-            }
-            return;
-        };
-        let inside2 = second.inside();
-        let met = (inside | inside2) & met;
+        let (zero, steep, t) = (S::F8::splat(0.0), slope.abs(), height.signed(slope));
+        let (dx, dy) = (rays.slack * S::F8::load(&f.margins[0]), rays.slack * S::F8::load(&f.margins[1]));
+        let dt = rays.near * S::F8::load(&f.depth);
+        let mut met = x.abs().le(steep + dx) & y.abs().le(steep + dy);
+        met = met & (zero - dt).le(t) & t.le(self.t[1] * steep + dt) & self.open;
+        if HALF {
+            met = met & (x + y).signed(slope).le(dx + dy);
+        }
         if !met.any() {
             return;
         }
-        let second_alone = inside2 & !inside;
-        let place = number::<S>(2 * i + 1).only_where(second_alone, number::<S>(2 * i));
-        // Rays of both go through the side they share.
-        let both = inside & inside2 & met;
-        self.anew = self.anew | both;
-        self.open = self.open & !both;
-        let edges = second.only_where(second_alone, &first);
-        self.triangle::<ANY>(&edges, met & !both, (place, t0), (error, sz));
-    }
-
-    /// Offers the points of the rays `met` on triangles, which have a place each.
-    #[inline(always)]
-    fn triangle<const ANY: bool>(
-        &mut self,
-        &Edges { e: [u, v, w], z }: &Edges<S>,
-        met: Which<S>,
-        (place, t0): (S::F8, S::F8),
-        (error, sz): (&[S::F8; 2], S::F8),
-    ) {
-        let zero = S::F8::splat(0.0);
-        let inv = S::F8::splat(1.0) / (u + v + w);
-        let t = (u * z[0] + v * z[1] + w * z[2]) * sz * inv;
-        let near = met & zero.lt(t) & t.le(self.t);
-        if !near.any() {
-            return;
+        // A ray leaves its own surface closer than margins can tell.
+        let [height, terms] = height_of(minus::<S>(splat::<S>(f.center), rays.o));
+        let aside = S::F8::splat(5.0 * ROUNDING) * terms + S::F8::splat(f.bent);
+        let sided = aside.lt(height.abs()) & (S::F8::splat(4.0) * rays.turn).lt(steep);
+        let met = met & !(sided & height.signed(slope).lt(zero));
+        if ANY {
+            let mut sure = met & x.abs().lt(steep - dx) & y.abs().lt(steep - dy);
+            sure = sure & dt.lt(t) & t.lt(self.t[0] * steep - dt);
+            if HALF {
+                sure = sure & (x + y).signed(slope).lt(zero - dx - dy);
+            }
+            self.take::<ANY>(met, sure);
+        } else {
+            let inv = S::F8::splat(1.0) / steep;
+            let (t, dt) = (t * inv, dt * inv);
+            let taken = met & sided & (t + dt).lt(self.t[0]);
+            let second = (x - y).signed(slope).lt(zero);
+            let place = number::<S>(f.place);
+            let place = if HALF { place } else { number::<S>(f.place + 1).only_where(second, place) };
+            self.take::<ANY>(met, taken);
+            self.face = self.face | taken;
+            self.put(taken, [t - dt, t + dt], place);
         }
-        let (least, greatest) = (u.min(v).min(w), u.max(v).max(w));
-        let exact = (zero.lt(least) | greatest.lt(zero)) & (error[0] + error[1] * inv.abs()).lt(t);
-        self.offer::<ANY>(near, near & exact & t0.le(t) & t.lt(self.t), [t, place, v * inv, w * inv]);
     }
 
-    /// Takes points, at `t` and in `place`, where `taken` says so; asks anew where they are only `near`.
+    /// Rays that are `sure` to meet something, of those that may.
     #[inline(always)]
-    fn offer<const ANY: bool>(&mut self, near: Which<S>, taken: Which<S>, [t, place, u, v]: [S::F8; 4]) {
-        self.anew = self.anew | near & !taken;
-        self.hit = self.hit | taken;
-        self.open = self.open & !if ANY { near } else { self.anew };
-        self.t = t.only_where(taken, self.t);
+    fn take<const ANY: bool>(&mut self, met: Which<S>, sure: Which<S>) {
+        self.hit = self.hit | sure;
+        self.anew = self.anew | met & !sure;
+        if ANY {
+            self.open = self.open & !sure;
+        }
+    }
+    /// The nearest points of the rays `taken`.
+    #[inline(always)]
+    fn put(&mut self, taken: Which<S>, t: [S::F8; 2], place: S::F8) {
+        self.t = [t[0].only_where(taken, self.t[0]), t[1].only_where(taken, self.t[1])];
         self.place = place.only_where(taken, self.place);
-        self.u = u.only_where(taken, self.u);
-        self.v = v.only_where(taken, self.v);
     }
-
-    /// Tests a ball for the rays `met`, which enter its box at `t0` and its surface at the first of `roots`.
+    /// Offers exact points at `t` of a primitive that is not a triangle, where they are `met`; `known` says where a point that is the nearest is
+    /// surely found by a single ray too.
     #[inline(always)]
-    fn ball<const ANY: bool>(
+    fn offer<const ANY: bool>(
         &mut self,
         place: u32,
-        (met, t0): (Which<S>, S::F8),
-        [near, far]: &[[f32; RAYS]; 2],
+        (met, known): (Which<S>, Which<S>),
+        [t, u, v]: [S::F8; 3],
     ) {
-        let (near, zero) = (S::F8::load(near), S::F8::splat(0.0));
-        let t = near.only_where(zero.lt(near), S::F8::load(far));
-        let near = met & self.open & zero.lt(t) & t.le(self.t);
-        let taken = near & t0.le(t) & t.lt(self.t);
-        self.offer::<ANY>(near, taken, [t, number::<S>(place), zero, zero]);
+        let near = met & self.open & S::F8::splat(0.0).lt(t) & t.le(self.t[1]);
+        let taken = near & known & t.lt(self.t[0]);
+        self.take::<ANY>(near, taken);
+        self.face = self.face & !taken;
+        self.put(taken, [t, t], number::<S>(place));
+        self.uv = [u.only_where(taken, self.uv[0]), v.only_where(taken, self.uv[1])];
     }
 
-    /// Asks for the points of another primitive ray by ray.
+    /// Tests a primitive that is not a triangle.
     #[inline(always)]
-    fn others<const ANY: bool>(
+    fn other<const ANY: bool>(
         &mut self,
-        (place, id): (u32, u32),
-        (met, t0): (Which<S>, S::F8),
-        rays: &[Ray; RAYS],
+        rays: &Packet<S>,
+        other: &Other,
+        list: &[Ray; RAYS],
         others: &impl Others,
     ) {
-        let (mut t, mut u, mut v) = (self.t.to_array(), self.u.to_array(), self.v.to_array());
-        let (t0, before) = (t0.to_array(), self.t);
-        let (mut met, mut anew) = ((met & self.open).bits(), [0.0; RAYS]);
-        while met != 0 {
-            let i = met.trailing_zeros() as usize & (RAYS - 1);
-            met &= met - 1;
+        let (zero, (center, radius)) = (S::F8::splat(0.0), other.ball);
+        let to = minus::<S>(splat::<S>(center), rays.o);
+        // How far the ray's line passes from the centre, and the stretch of it within the ball; times the length of the direction.
+        let off = cross::<S>(to, rays.d);
+        let (off2, along) = (dot::<S>(off, off), dot::<S>(to, rays.d));
+        let err = S::F8::splat(8.0) * rays.near;
+        let (outer, inner) = (S::F8::splat(radius) + err, S::F8::splat(0.99999 * radius) - err);
+        let half = (outer * outer * rays.d2 - off2).sqrt();
+        let slack = S::F8::splat(8.0) * rays.slack;
+        let ahead = (zero - slack).le(along + half) & (along - half).le(self.t[1] * rays.d2 + slack);
+        let met = ahead & self.open;
+        if !met.any() {
+            return;
+        }
+        let (o, d) = (rays.o.map(S::F8::to_array), rays.d.map(S::F8::to_array));
+        if let Some([near, far]) = others.roots(other.id, &o, &d) {
+            let (near, far) = (S::F8::load(&near), S::F8::load(&far));
+            let t = near.only_where(zero.lt(near), far);
+            // Those that graze it may miss its box.
+            let inside = off2.lt(inner * inner * rays.d2) & zero.lt(inner);
+            self.offer::<ANY>(other.place, (met, inside), [t, zero, zero]);
+        } else {
+            self.one_by_one::<ANY>(other, met, (rays, list), others);
+        }
+    }
+
+    /// Asks for the points of a primitive ray by ray.
+    #[inline(always)]
+    fn one_by_one<const ANY: bool>(
+        &mut self,
+        other: &Other,
+        met: Which<S>,
+        (rays, list): (&Packet<S>, &[Ray; RAYS]),
+        others: &impl Others,
+    ) {
+        let (inside, t0) = rays.meets(&other.bounds, self.t[1]);
+        let mut left = (met & inside).bits();
+        let (limit, mut points) = (self.t[1].to_array(), [[f32::NAN; RAYS]; 3]);
+        while left != 0 {
+            let i = left.trailing_zeros() as usize & (RAYS - 1);
+            left &= left - 1;
             // One that lies as far as the limit shows in this way.
-            others.hit(id, &rays[i], t[i].next_up(), &mut |h: RawHit| {
-                if h.t < t[i] && t0[i] <= h.t {
-                    (t[i], u[i], v[i]) = (h.t, h.u, h.v);
-                } else {
-                    anew[i] = 1.0;
+            others.hit(other.id, &list[i], limit[i].next_up(), &mut |h: RawHit| {
+                for (to, x) in points.iter_mut().zip([h.t, h.u, h.v]) {
+                    to[i] = x;
                 }
-                t[i]
+                h.t
             });
         }
-        let (t, anew) = (S::F8::load(&t), S::F8::splat(0.0).lt(S::F8::load(&anew)));
-        let taken = t.lt(before);
-        self.offer::<ANY>(
-            taken | anew,
-            taken & !anew,
-            [t, number::<S>(place), S::F8::load(&u), S::F8::load(&v)],
-        );
+        let [t, u, v] = load::<S>(&points);
+        self.offer::<ANY>(other.place, (met, t0.le(t)), [t, u, v]);
     }
 }
 
@@ -322,107 +330,75 @@ fn number<S: Simd>(i: u32) -> S::F8 {
     S::F8::splat(f32::from_bits(i))
 }
 
-/// The edge functions of a triangle, and how far its corners are.
-struct Edges<S: Simd> {
-    e: [S::F8; 3],
-    z: [S::F8; 3],
-}
-
-impl<S: Simd> Edges<S> {
-    #[inline(always)]
-    fn new([a, b, c]: [&Sheared<S>; 3]) -> Edges<S> {
-        let u = c[0] * b[1] - c[1] * b[0];
-        let v = a[0] * c[1] - a[1] * c[0];
-        let w = b[0] * a[1] - b[1] * a[0];
-        Edges { e: [u, v, w], z: [a[2], b[2], c[2]] }
-    }
-    /// Rays with no edge functions of different signs.
-    #[inline(always)]
-    fn inside(&self) -> Which<S> {
-        let ([u, v, w], zero) = (self.e, S::F8::splat(0.0));
-        zero.le(u.min(v).min(w)) | u.max(v).max(w).le(zero)
-    }
-    #[inline(always)]
-    fn only_where(&self, mask: Which<S>, o: &Edges<S>) -> Edges<S> {
-        let choose = |a: &[S::F8; 3], b: &[S::F8; 3]| {
-            [a[0].only_where(mask, b[0]), a[1].only_where(mask, b[1]), a[2].only_where(mask, b[2])]
-        };
-        Edges { e: choose(&self.e, &o.e), z: choose(&self.z, &o.z) }
-    }
-}
-
 /// What eight rays meet.
+#[derive(Default)]
 pub(crate) struct Eight {
-    t: [f32; RAYS],
-    /// Numbers of primitives; also where nothing is met.
-    id: [u32; RAYS],
-    u: [f32; RAYS],
-    v: [f32; RAYS],
+    /// Where along ray i and i + 4, the bits of the numbers of shape and primitive, and the first parameter of the primitive; also where
+    /// nothing is met.
+    pub(super) rows: [[f32; RAYS]; 4],
+    /// The second parameters.
+    pub(super) v: [f32; RAYS],
     /// One bit for each ray that met something.
-    hit: u32,
+    pub(super) hit: u32,
     /// One bit for each that has to be asked by itself instead.
     pub(super) anew: u32,
 }
 
 impl Eight {
-    /// What a ray meets, and whether it does: else it is of no meaning, but for the number of some primitive.
+    /// Ray i met something.
     #[inline(always)]
-    pub(crate) fn get(&self, i: usize) -> (RawHit, bool) {
-        let i = i % RAYS;
-        (RawHit { t: self.t[i], id: self.id[i], u: self.u[i], v: self.v[i] }, self.hit >> i & 1 == 1)
+    pub(crate) fn met(&self, i: usize) -> bool {
+        self.hit >> i & 1 == 1
+    }
+    /// What ray i met, if it did.
+    #[inline(always)]
+    pub(crate) fn get(&self, i: usize) -> Option<Hit> {
+        let (row, at) = (&self.rows[i % 4], i & 4);
+        let [t, shape, prim, u] = [row[at], row[at + 1], row[at + 2], row[at + 3]];
+        let hit =
+            Hit { t, shape: shape.to_bits(), prim: prim.to_bits(), u, v: self.v[i % RAYS], instance: None };
+        self.met(i).then_some(hit)
     }
 }
 
-/// The nearest points of eight rays, or with `ANY` any.
+/// The nearest points of eight rays, or with `ANY` no more than whether there are any.
 #[inline(always)]
-pub(super) fn hit<S: Simd, const ANY: bool>(
-    few: &Few,
-    rays: &[Ray; RAYS],
-    others: &impl Others,
-    corners: &mut [Sheared<S>; MAX_VERTICES],
-) -> Eight {
-    let packet = Packet::<S>::new(rays);
-    let error = packet.shear(&few.vertices, corners);
+pub(super) fn hit<S: Simd, const ANY: bool>(few: &Few, list: &[Ray; RAYS], others: &impl Others) -> Eight {
+    let rays = Packet::<S>::new(list, few.radius);
     let (zero, none) = (S::F8::splat(0.0), Which::<S>::none());
+    // Infinity times a slope of zero would be no number.
+    let end = rays.t_max.min(S::F8::splat(f32::MAX));
     let mut nearest = Nearest::<S> {
-        t: packet.t_max,
+        t: [end, end],
         place: zero,
-        u: zero,
-        v: zero,
+        uv: [zero, zero],
         hit: none,
+        face: none,
         anew: none,
-        open: packet.valid,
+        open: rays.sane,
     };
-    for (bounds, range) in &few.leaves {
-        let (met, t0) = packet.meets(bounds, nearest.t);
-        if !(met & nearest.open).any() {
-            continue;
-        }
-        for (pair, i) in few.pairs[range.clone()].iter().zip(range.start as u32..) {
-            nearest.pair::<ANY>((i, pair), (met, t0), (&*corners, &error, packet.s[2]));
+    for axis in 0..3 {
+        for f in &few.walls[axis] {
+            let seen = Seen::wall(&rays, axis, f);
+            nearest.face::<ANY, false>(&rays, &f.extent, seen, |v| [v[axis], v[axis].abs()]);
         }
     }
-    for (Other { bounds, id, ball }, place) in few.others.iter().zip(2 * few.pairs.len() as u32..) {
-        let (met, t0) = packet.meets(bounds, nearest.t);
-        let met = met & packet.reaches(ball);
-        if !(met & nearest.open).any() {
-            continue;
-        }
-        match others.roots(*id, &packet.o.map(S::F8::to_array), &packet.d.map(S::F8::to_array)) {
-            Some(roots) => nearest.ball::<ANY>(place, (met, t0), &roots),
-            None => nearest.others::<ANY>((place, *id), (met, t0), rays, others),
-        }
+    for f in &few.squares {
+        let seen = Seen::face(&rays, f);
+        nearest.face::<ANY, false>(&rays, &f.extent, seen, |v| dot_and_terms::<S>(load::<S>(&f.normal), v));
     }
-    let mut id = [0; RAYS];
-    for (id, place) in id.iter_mut().zip(nearest.place.to_array()) {
-        *id = few.ids[place.to_bits() as usize];
+    for f in &few.triangles {
+        let seen = Seen::face(&rays, f);
+        nearest.face::<ANY, true>(&rays, &f.extent, seen, |v| dot_and_terms::<S>(load::<S>(&f.normal), v));
     }
-    Eight {
-        t: nearest.t.to_array(),
-        id,
-        u: nearest.u.to_array(),
-        v: nearest.v.to_array(),
-        hit: nearest.hit.bits(),
-        anew: nearest.anew.bits(),
+    for other in &few.others {
+        nearest.other::<ANY>(&rays, other, list, others);
+    }
+    nearest.anew = nearest.anew | !rays.sane;
+    if ANY {
+        let hit = nearest.hit.bits();
+        Eight { hit, anew: nearest.anew.bits() & !hit, ..Eight::default() }
+    } else {
+        settle(few, &rays, nearest)
     }
 }

@@ -83,7 +83,7 @@ impl Kernel for Operations {
         let some = [a.abs().min_nonneg(b.abs()), a.abs().max_nonneg(b.abs())];
         let none = <S::F8 as Floats<8>>::Mask::none();
         let (le, lt) = (a.le(b), a.lt(b));
-        let chosen = [a.only_where(!lt, b), S::F8::pick(&[1.0, 2.0, 3.0, 4.0], b)];
+        let chosen = [a.only_where(!lt, b), a.sqrt(), a.signed(b)];
         let numbers = both.into_iter().chain(some).chain(chosen).flat_map(|x| x.to_array().map(f32::to_bits));
         let signs = [a.min_nonneg(b), a.max_nonneg(b)];
         let signs = signs.into_iter().flat_map(|x| x.to_array().map(|x| u32::from(x > 0.0)));
@@ -112,7 +112,8 @@ fn one_by_one(a: [f32; 8], b: [f32; 8]) -> Vec<u32> {
     out.extend(each(&|a, b| max(a.abs(), b.abs())));
     let chosen = |i: usize| if a[i] < b[i] { b[i] } else { a[i] };
     out.extend([0, 1, 2, 3, 4, 5, 6, 7].map(|i| chosen(i).to_bits()));
-    out.extend(b.map(|b| ((b.to_bits() % 4 + 1) as f32).to_bits()));
+    out.extend(each(&|a, _| a.sqrt()));
+    out.extend(each(&|a, b| if b.is_sign_negative() { -a } else { a }));
     out.extend([0, 1, 2, 3, 4, 5, 6, 7].map(|i| u32::from(min(a[i], b[i]) > 0.0)));
     out.extend([0, 1, 2, 3, 4, 5, 6, 7].map(|i| u32::from(max(a[i], b[i]) > 0.0)));
     let (le, lt) = (bits(&|a, b| a <= b), bits(&|a, b| a < b));

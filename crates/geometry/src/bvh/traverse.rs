@@ -210,14 +210,13 @@ impl<const ANY: bool, O: Others, A: Answers> Kernel for Walks<'_, ANY, O, A> {
     type Output = ();
     #[inline(always)]
     fn run<S: Simd>(self) {
-        let mut corners = packet::room::<S>();
         for (n, rays) in self.rays.chunks(RAYS).enumerate() {
             let (first, mut alone) = (n * RAYS, (1 << rays.len()) - 1_u32);
             // In halves of four, rays that go different ways take longer together than one by one.
             if S::EIGHT_IN_ONE
                 && let (Some(few), Ok(rays)) = (self.few, rays.try_into())
             {
-                let hits = packet::hit::<S, ANY>(few, rays, self.others, &mut corners);
+                let hits = packet::hit::<S, ANY>(few, rays, self.others);
                 self.answers.eight(first, &hits);
                 alone = hits.anew;
             }

@@ -4,7 +4,7 @@ use rayon::prelude::*;
 use sparrow_math::Aabb;
 
 use super::BuildBytes;
-use crate::bvh::{Kind, MAX_PRIMS, Others, PrimRef, RAYS, RawHit};
+use crate::bvh::{Kind, MAX_PRIMS, Others, Owner, PrimRef, RAYS, RawHit};
 use crate::curve::{Curves, DeformingCurves};
 use crate::deforming::Deforming;
 use crate::instance::padded;
@@ -197,6 +197,11 @@ impl Bodies {
             Body::Quadric(_) => (0, Part::Whole),
         };
         Place { shape, local, prim, part }
+    }
+    /// What a hit on a number of the tree tells of it.
+    pub(super) fn owner(&self, id: u32) -> Owner {
+        let Place { shape, prim, part, .. } = self.search(id);
+        Owner { shape, prim, half: [part == Part::First, part == Part::Second] }
     }
     pub(super) fn corners(&self, id: u32) -> [[f32; 3]; 3] {
         let (shape, local) = self.locate(id);

@@ -15,7 +15,7 @@ use crate::bvh::{Bvh, Few, MAX_PRIMS};
 use crate::instance::{Instance, Instances, MovingInstance};
 use crate::point::ShapeSample;
 use crate::progress::{BuildObserver, Progress};
-use crate::sample::{SampleColumns, Viewpoint, per_steradian};
+use crate::sample::{PdfColumns, SampleColumns, Viewpoint, per_steradian};
 use crate::shape::{Shape, ShapeInstance};
 
 /// What a geometry is built from.
@@ -130,7 +130,7 @@ impl Geometry {
             build_seconds: start.elapsed().as_secs_f64(),
         };
         let alone = instances.len() == 0;
-        let few = alone.then(|| Few::new(&bvh, |id| bodies.ball(id))).flatten();
+        let few = alone.then(|| Few::new(&bvh, |id| bodies.owner(id), |id| bodies.ball(id))).flatten();
         progress.finish();
         Geometry { bodies, instances, first_instance, bvh, few, stats }
     }
@@ -222,6 +222,19 @@ impl Geometry {
             }
         }
     }
+    /// [`pdf_from`](Self::pdf_from) for each of the first `n` points of `columns`, in lanes, to the bit; false, and nothing done, where
+    /// such primitives are drawn one by one.
+    ///
+    /// Panics where columns are shorter than `n`, rounded up to whole registers.
+    pub fn pdf_from_many(&self, shape: u32, prim: u32, columns: &mut PdfColumns<'_>, n: usize) -> bool {
+        match self.body(shape) {
+            Some(Body::Patches(m)) => m.pdf_from_many(prim, columns, n),
+            Some(Body::Quadric(Some(q))) => q.pdf_from_many(columns, n),
+            Some(Body::Triangles(_) | Body::Curves(_) | Body::Quadric(None) | Body::Deforming(_)) | None => {
+                false
+            }
+        }
+    }
     /// Density per steradian with which [`sample_from`](Self::sample_from) draws the direction that met the primitive at
     /// `hit_p` with geometric normal `hit_n`.
     #[inline]
@@ -238,7 +251,7 @@ impl Geometry {
         match self.body(shape) {
             Some(Body::Triangles(m)) => m.pdf_from(prim, from, hit_p, per_area),
             Some(Body::Patches(m)) => m.pdf_from(prim, from, hit_p, hit_n, per_area),
-            Some(Body::Quadric(Some(q))) => q.pdf_from(from.p, hit_n, per_area),
+            Some(Body::Quadric(Some(q))) => q.pdf_from(from, hit_n, per_area),
             Some(Body::Curves(_) | Body::Quadric(None) | Body::Deforming(_)) | None => 0.0,
         }
     }

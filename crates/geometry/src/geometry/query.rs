@@ -19,13 +19,11 @@ impl Answers for Nearest<'_> {
     fn one(&mut self, i: usize, hit: Option<RawHit>) {
         self.out[i] = hit.map(|raw| self.bodies.to_hit(&raw));
     }
-    #[inline(always)]
+    // Read from memory in rows, which the compiler would otherwise take to pieces.
+    #[inline(never)]
     fn eight(&mut self, first: usize, hits: &Eight) {
         for (i, out) in self.out[first..first + RAYS].iter_mut().enumerate() {
-            // Worked out where nothing is met too: which rays these are cannot be foreseen.
-            let (raw, met) = hits.get(i);
-            let hit = self.bodies.to_hit(&raw);
-            *out = met.then_some(hit);
+            *out = hits.get(i);
         }
     }
 }
@@ -41,7 +39,7 @@ impl Answers for Any<'_> {
     #[inline(always)]
     fn eight(&mut self, first: usize, hits: &Eight) {
         for (i, out) in self.0[first..first + RAYS].iter_mut().enumerate() {
-            *out = hits.get(i).1;
+            *out = hits.met(i);
         }
     }
 }

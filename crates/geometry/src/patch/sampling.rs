@@ -6,7 +6,7 @@ use super::flat::Flat;
 use super::surface::Place;
 use super::{Bilinear, Kind, Patches};
 use crate::point::ShapeSample;
-use crate::sample::{Bilinear as Density, Draw, Rectangle, SampleColumns, Viewpoint, seen_from};
+use crate::sample::{Bilinear as Density, Draw, PdfColumns, Rectangle, SampleColumns, Viewpoint, seen_from};
 
 /// Close to uniform by area: the area elements at the corners.
 fn by_area(p: &Bilinear) -> Density<f64> {
@@ -95,6 +95,10 @@ impl Patches {
         }
         Some(flat.p_error_of_samples())
     }
+    /// [`pdf_from`](Self::pdf_from) of `n` directions; false where the patch is no rectangle.
+    pub(crate) fn pdf_from_many(&self, prim: u32, columns: &mut PdfColumns<'_>, n: usize) -> bool {
+        self.rectangle(prim).map(|(_, r)| columns.fill(r, n)).is_some()
+    }
     /// Density per steradian of [`sample_from`](Self::sample_from) for a direction that met the patch at `hit_p`
     /// with normal `hit_n`; `per_area` turns densities per area into it.
     pub(crate) fn pdf_from(
@@ -106,7 +110,7 @@ impl Patches {
         per_area: impl Fn(f64) -> f32,
     ) -> f32 {
         if let Some((_, r)) = self.rectangle(prim) {
-            return r.pdf(from.p, from.n, hit_p);
+            return r.pdf_one(from, hit_p);
         }
         if let Some(flat) = self.flat(prim) {
             return per_area(1.0 / flat.area);

@@ -4,7 +4,7 @@ use sparrow_math::Vec3;
 
 use super::{Quadric, p_error};
 use crate::point::ShapeSample;
-use crate::sample::{Draw, SampleColumns, Viewpoint, seen_from};
+use crate::sample::{Draw, PdfColumns, SampleColumns, Viewpoint, seen_from};
 
 /// Points an axis of the rule that measures areas under maps that stretch unevenly.
 const AREA_STEPS: u32 = 64;
@@ -69,10 +69,14 @@ impl Quadric {
     }
     /// Density per steradian of [`sample_from`](Self::sample_from) for a direction that met the surface with world
     /// normal `n`; `per_area` turns densities per area into it.
-    pub(crate) fn pdf_from(&self, from: Vec3<f32>, n: Vec3<f32>, per_area: impl Fn(f64) -> f32) -> f32 {
+    pub(crate) fn pdf_from(&self, from: &Viewpoint, n: Vec3<f32>, per_area: impl Fn(f64) -> f32) -> f32 {
         match &self.ball {
-            Some(ball) => Some(ball.single.pdf(from)).filter(|pdf| *pdf < f32::MAX).unwrap_or(0.0),
+            Some(ball) => ball.single.pdf_one(from, from.p),
             None => per_area(self.pdf_area(n.to_f64())),
         }
+    }
+    /// [`pdf_from`](Self::pdf_from) of `n` directions; false where this is no whole ball.
+    pub(crate) fn pdf_from_many(&self, columns: &mut PdfColumns<'_>, n: usize) -> bool {
+        self.ball.as_ref().map(|ball| columns.fill(&ball.single, n)).is_some()
     }
 }

@@ -24,10 +24,6 @@ impl Ball {
     pub(crate) fn p_error(&self) -> Vec3<f32> {
         (self.center.abs() + Vec3::splat(self.radius)) * crate::bvh::gamma(5)
     }
-    /// Density per steradian of each direction from `from` to the ball.
-    pub(crate) fn pdf(&self, from: Vec3<f32>) -> f32 {
-        Cone::new(self, self.center - from).pdf()
-    }
 }
 
 /// The cone that a ball fills.
@@ -69,6 +65,12 @@ impl Draw for Ball {
     fn view<R: Real>(&self, from: Vec3<R>, _: Option<Vec3<R>>) -> Self::View<R> {
         let to_center = spread(self.center) - from;
         (to_center, Cone::new(self, to_center))
+    }
+    /// The same for all of the ball; none where it is too small a target.
+    #[inline(always)]
+    fn pdf<R: Real>(&self, (_, cone): &Self::View<R>, _: Vec3<R>) -> R {
+        let pdf = cone.pdf();
+        pdf.only_where(pdf.lt(R::of(f64::from(f32::MAX))))
     }
     #[inline(always)]
     fn draw<R: Real>(&self, &(to_center, cone): &Self::View<R>, u: [R; 2]) -> Drawn<R> {

@@ -14,11 +14,18 @@ pub(crate) trait Draw {
     fn view<R: Real>(&self, from: Vec3<R>, n: Option<Vec3<R>>) -> Self::View<R>;
     /// A point of what is seen, by two uniform numbers.
     fn draw<R: Real>(&self, view: &Self::View<R>, u: [R; 2]) -> Drawn<R>;
+    /// Density per steradian of the direction to the point `p` of the shape.
+    fn pdf<R: Real>(&self, view: &Self::View<R>, p: Vec3<R>) -> R;
 
     /// From one viewpoint.
     #[inline]
     fn draw_one(&self, from: &Viewpoint, u: [f32; 2]) -> Drawn<f32> {
         self.draw(&self.view(from.p, from.n), u)
+    }
+    /// Seen from one viewpoint.
+    #[inline]
+    fn pdf_one(&self, from: &Viewpoint, p: Vec3<f32>) -> f32 {
+        self.pdf(&self.view(from.p, from.n), p)
     }
 }
 
@@ -95,6 +102,45 @@ impl SampleColumns<'_> {
         for k in 0..n {
             let normal = normal_at(vec3(self.p[0][k], self.p[1][k], self.p[2][k]));
             self.on.iter_mut().zip(normal.to_array()).for_each(|(column, x)| column[k] = x);
+        }
+    }
+}
+
+/// Viewpoints, and points of one primitive to which directions from there lead; all columns have the same length, a multiple of
+/// [`MAX_WIDTH`](sparrow_math::MAX_WIDTH).
+#[derive(Debug)]
+pub struct PdfColumns<'a> {
+    /// Points.
+    pub from: [&'a [f32]; 3],
+    /// Their unit normals: see [`Viewpoint::n`].
+    pub n: [&'a [f32]; 3],
+    /// Points of the primitive.
+    pub p: [&'a [f32]; 3],
+    /// Densities per steradian.
+    pub pdf: &'a mut [f32],
+}
+
+impl PdfColumns<'_> {
+    /// Densities from each of the first `n` viewpoints.
+    pub(crate) fn fill(&mut self, shape: &impl Draw, n: usize) {
+        in_lanes(Densities { shape, columns: self, n });
+    }
+}
+
+struct Densities<'a, 'b, S> {
+    shape: &'a S,
+    columns: &'a mut PdfColumns<'b>,
+    n: usize,
+}
+
+impl<S: Draw> InLanes for Densities<'_, '_, S> {
+    type Output = ();
+    #[inline(always)]
+    fn run<R: Real>(self) {
+        let Densities { shape, columns: c, n } = self;
+        for k in (0..n).step_by(R::WIDTH) {
+            let view = shape.view(load::<R>(&c.from, k), Some(load(&c.n, k)));
+            shape.pdf(&view, load(&c.p, k)).store(c.pdf, k);
         }
     }
 }

@@ -9,8 +9,8 @@ mod viewpoint;
 
 pub(crate) use ball::Ball;
 pub(crate) use bilinear::Bilinear;
-pub use many::SampleColumns;
 pub(crate) use many::{Draw, Drawn};
+pub use many::{PdfColumns, SampleColumns};
 pub(crate) use rectangle::{Edges, Rectangle};
 pub(crate) use triangle::SphericalTriangle;
 pub use viewpoint::Viewpoint;

@@ -65,16 +65,6 @@ impl Rectangle {
             lengths: edges.lengths.map(|l| l as f32),
         }
     }
-
-    /// Density per steradian, seen from `from`, of the direction to the point `p` of the rectangle.
-    pub(crate) fn pdf(&self, from: Vec3<f32>, n: Option<Vec3<f32>>, p: Vec3<f32>) -> f32 {
-        let seen = Seen::new(self, from);
-        let at = p - self.corner;
-        seen.pdf(
-            &seen.follow_cosine(self, n),
-            [at.dot(self.axes[0]), at.dot(self.axes[1])].map(|x| x * seen.scale),
-        )
-    }
 }
 
 impl Draw for Rectangle {
@@ -85,6 +75,12 @@ impl Draw for Rectangle {
     fn view<R: Real>(&self, from: Vec3<R>, n: Option<Vec3<R>>) -> Self::View<R> {
         let seen = Seen::new(self, from);
         (seen, seen.follow_cosine(self, n))
+    }
+    #[inline(always)]
+    fn pdf<R: Real>(&self, (seen, warp): &Self::View<R>, p: Vec3<R>) -> R {
+        let at = p - spread(self.corner);
+        let along = |axis: Vec3<f32>| at.dot(spread(axis)) * seen.scale;
+        seen.pdf_at(warp, [along(self.axes[0]), along(self.axes[1])])
     }
     #[inline(always)]
     fn draw<R: Real>(&self, (seen, warp): &Self::View<R>, u: [R; 2]) -> Drawn<R> {
@@ -148,7 +144,7 @@ impl<R: Real> Seen<R> {
 
     /// Density per steradian of a place on the rectangle.
     #[inline(always)]
-    fn pdf(&self, warp: &Bilinear<R>, [x, y]: [R; 2]) -> R {
+    fn pdf_at(&self, warp: &Bilinear<R>, [x, y]: [R; 2]) -> R {
         let r = &self.rectangle;
         let by_angle = warp.pdf(r.invert([x, y])) / r.solid_angle;
         let distance = vec3(r.x[0] + x, r.y[0] + y, r.z).length();
@@ -331,7 +327,7 @@ mod tests {
                 let exact = rectangle([x, y, z], lengths.map(f64::from));
                 for u in [[0.1_f32, 0.9], [0.5, 0.5], [0.83, 0.02], [0.999, 0.4]] {
                     let s = r.draw(&r.view(from, None), u);
-                    let again = r.pdf(from, None, s.p);
+                    let again = r.pdf(&r.view(from, None), s.p);
                     assert!((s.pdf / again - 1.0).abs() < 1e-5, "{from:?} {u:?}: {} and {again}", s.pdf);
                     let off = (from + s.wi * s.distance - s.p).length();
                     assert!(off < 1e-6 * from.length() && s.p.z.abs() < 1e-6, "{from:?} {u:?}: {off}");

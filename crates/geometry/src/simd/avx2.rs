@@ -7,12 +7,11 @@
 
 use core::arch::x86_64::{
     __m256, _CMP_LE_OQ, _CMP_LT_OQ, _MM_HINT_T0, _mm_loadu_ps, _mm_prefetch, _mm256_add_ps, _mm256_and_ps,
-    _mm256_andnot_ps, _mm256_blendv_ps, _mm256_broadcast_ps, _mm256_castps_si256, _mm256_castps128_ps256,
-    _mm256_castsi256_ps, _mm256_cmp_ps, _mm256_div_ps, _mm256_insertf128_ps, _mm256_loadu_ps,
-    _mm256_max_epi32, _mm256_max_ps, _mm256_min_epi32, _mm256_min_ps, _mm256_movemask_ps, _mm256_mul_ps,
-    _mm256_or_ps, _mm256_permutevar_ps, _mm256_set1_epi32, _mm256_set1_ps, _mm256_setzero_ps,
-    _mm256_shuffle_ps, _mm256_storeu_ps, _mm256_sub_ps, _mm256_unpackhi_ps, _mm256_unpacklo_ps,
-    _mm256_xor_ps,
+    _mm256_andnot_ps, _mm256_blendv_ps, _mm256_castps_si256, _mm256_castps128_ps256, _mm256_castsi256_ps,
+    _mm256_cmp_ps, _mm256_div_ps, _mm256_insertf128_ps, _mm256_loadu_ps, _mm256_max_epi32, _mm256_max_ps,
+    _mm256_min_epi32, _mm256_min_ps, _mm256_movemask_ps, _mm256_mul_ps, _mm256_or_ps, _mm256_set1_epi32,
+    _mm256_set1_ps, _mm256_setzero_ps, _mm256_shuffle_ps, _mm256_sqrt_ps, _mm256_storeu_ps, _mm256_sub_ps,
+    _mm256_unpackhi_ps, _mm256_unpacklo_ps, _mm256_xor_ps,
 };
 use core::ops::{Add, BitAnd, BitOr, Div, Mul, Not, Sub};
 
@@ -50,12 +49,16 @@ impl Simd for Avx2 {
     type F4 = f32x4;
     type F8 = F8;
     #[inline(always)]
-    fn columns(rows: &[[f32; 8]; 8]) -> [F8; 8] {
+    fn columns(rows: [&[f32; 8]; 8]) -> [F8; 8] {
         // Rows i and i + 4 in the halves of one register, so that nothing crosses between halves later.
-        let row = |i: usize| (F8::halves(&rows[i], &rows[i + 4], 0), F8::halves(&rows[i], &rows[i + 4], 4));
+        let row = |i: usize| (F8::halves(rows[i], rows[i + 4], 0), F8::halves(rows[i], rows[i + 4], 4));
         let [(a, e), (b, f), (c, g), (d, h)] = [row(0), row(1), row(2), row(3)];
         let ([k0, k1, k2, k3], [k4, k5, k6, k7]) = (F8::columns(a, b, c, d), F8::columns(e, f, g, h));
         [k0, k1, k2, k3, k4, k5, k6, k7]
+    }
+    #[inline(always)]
+    fn rows([a, b, c, d]: [F8; 4]) -> [[f32; 8]; 4] {
+        F8::columns(a, b, c, d).map(Floats::to_array)
     }
 }
 
@@ -194,12 +197,12 @@ impl Floats<8> for F8 {
         F8(avx!(_mm256_blendv_ps(o.0, self.0, mask.0)))
     }
     #[inline(always)]
-    fn pick(table: &[f32; 4], at: F8) -> F8 {
-        // SAFETY: `table` holds the four numbers that are read; of each whole number two bits are looked at.
-        F8(avx!(_mm256_permutevar_ps(
-            _mm256_broadcast_ps(&_mm_loadu_ps(table.as_ptr())),
-            _mm256_castps_si256(at.0),
-        )))
+    fn sqrt(self) -> F8 {
+        F8(avx!(_mm256_sqrt_ps(self.0)))
+    }
+    #[inline(always)]
+    fn signed(self, o: F8) -> F8 {
+        F8(avx!(_mm256_xor_ps(self.0, _mm256_and_ps(o.0, _mm256_set1_ps(-0.0)))))
     }
 }
 

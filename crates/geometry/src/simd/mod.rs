@@ -56,8 +56,9 @@ pub(crate) trait Floats<const N: usize>:
     fn lt(self, o: Self) -> Self::Mask;
     /// `self[i]` where the mask is true, else `o[i]`.
     fn only_where(self, mask: Self::Mask, o: Self) -> Self;
-    /// `table[at[i] % 4]`, where `at` holds bits of whole numbers.
-    fn pick(table: &[f32; 4], at: Self) -> Self;
+    fn sqrt(self) -> Self;
+    /// The number, negated where `o` has a minus sign.
+    fn signed(self, o: Self) -> Self;
 }
 
 /// A vector unit: its registers of four and of eight numbers.
@@ -68,15 +69,26 @@ pub(crate) trait Simd {
     type F8: Floats<8>;
     /// Number k of each of eight rows, for each k.
     #[inline(always)]
-    fn columns(rows: &[[f32; 8]; 8]) -> [Self::F8; 8] {
+    fn columns(rows: [&[f32; 8]; 8]) -> [Self::F8; 8] {
         let mut columns = [[0.0; 8]; 8];
         for (i, row) in rows.iter().enumerate() {
-            for (column, x) in columns.iter_mut().zip(row) {
+            for (column, x) in columns.iter_mut().zip(*row) {
                 column[i] = *x;
             }
         }
         let column = |k: usize| Self::F8::load(&columns[k]);
         [column(0), column(1), column(2), column(3), column(4), column(5), column(6), column(7)]
+    }
+    /// Rows of four numbers, given number k of each of eight rows for each k: rows i and i + 4, one after the other, for each i.
+    #[inline(always)]
+    fn rows(columns: [Self::F8; 4]) -> [[f32; 8]; 4] {
+        let (columns, mut rows) = (columns.map(Floats::to_array), [[0.0; 8]; 4]);
+        for (i, row) in rows.iter_mut().enumerate() {
+            for (k, column) in columns.iter().enumerate() {
+                (row[k], row[k + 4]) = (column[i], column[i + 4]);
+            }
+        }
+        rows
     }
 }
 

@@ -97,8 +97,12 @@ macro_rules! floats {
                 $type::new(a)
             }
             #[inline(always)]
-            fn pick(table: &[f32; 4], at: $type) -> $type {
-                $type::new(at.to_array().map(|i| table[i.to_bits() as usize % 4]))
+            fn sqrt(self) -> $type {
+                self.sqrt()
+            }
+            #[inline(always)]
+            fn signed(self, o: $type) -> $type {
+                self ^ (o & $type::splat(-0.0))
             }
         }
     };

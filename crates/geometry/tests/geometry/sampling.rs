@@ -1,7 +1,8 @@
 //! Densities of drawn directions.
 
 use sparrow_geometry::{
-    BilinearMesh, Geometry, Ray, SampleColumns, Shape, ShapeInstance, ShapeSample, TriangleMesh, Viewpoint,
+    BilinearMesh, Geometry, PdfColumns, Ray, SampleColumns, Shape, ShapeInstance, ShapeSample, TriangleMesh,
+    Viewpoint,
 };
 use sparrow_math::{Transform, Vec3, vec3};
 
@@ -294,6 +295,19 @@ fn lanes_draw_what_is_drawn_one_by_one() {
             };
             let p_error = g.sample_from_many(0, 0, &mut columns, N).expect("there are lanes");
             let vector = |c: &[&mut [f32]; 3], k: usize| vec3(c[0][k], c[1][k], c[2][k]);
+            let mut again = [0.0; 32];
+            let mut densities = PdfColumns {
+                from: at.each_ref().map(|c| &c[..]),
+                n: n.each_ref().map(|c| &c[..]),
+                p: columns.p.each_ref().map(|c| &**c),
+                pdf: &mut again,
+            };
+            assert!(g.pdf_from_many(0, 0, &mut densities, N));
+            for k in 0..N {
+                let (from, n) = (Viewpoint { p: from[k], n: Some(normals[k]) }, vector(&columns.on, k));
+                let pdf = g.pdf_from(0, 0, from, vector(&columns.p, k), n);
+                assert_eq!(again[k].to_bits(), pdf.to_bits(), "shape {i} from {from:?}: {}, {pdf}", again[k]);
+            }
             for k in 0..N {
                 let one = g.sample_from(0, 0, Viewpoint { p: from[k], n: Some(normals[k]) }, u[k]);
                 let pdf = columns.pdf[k];

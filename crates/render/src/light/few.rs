@@ -70,6 +70,14 @@ impl FewLights {
         in_lanes(Choose { few: self, points, light, probability });
     }
 
+    /// [`probability`](Self::probability) for each of `points`, to the bit, in lanes. The column is as long as theirs.
+    pub(super) fn probability_many(&self, points: &LitPoints<'_>, light: u32, out: &mut [f32]) {
+        match self.lights.iter().position(|&l| l == light) {
+            Some(own) => in_lanes(Shares { few: self, points, own, out }),
+            None => out[..points.n_points].fill(0.0),
+        }
+    }
+
     pub(super) fn probability(&self, at: &LitPoint, light: u32) -> f32 {
         let Some(own) = self.lights.iter().position(|&l| l == light) else { return 0.0 };
         let mut weights = [0.0; WEIGH_ALL];
@@ -113,6 +121,46 @@ impl InLanes for Weigh<'_> {
     }
 }
 
+impl FewLights {
+    /// Weighs all of them for lanes of points.
+    #[inline(always)]
+    fn weigh<R: Real>(&self, LitPoints { p, n, .. }: &LitPoints<'_>, k: usize, weights: &mut [R]) {
+        let p = vec3(R::load(p[0], k), R::load(p[1], k), R::load(p[2], k));
+        let n = vec3(R::load(n[0], k), R::load(n[1], k), R::load(n[2], k));
+        for (i, weight) in weights.iter_mut().enumerate() {
+            *weight = self.bounds[i / EIGHT].spread::<R>(i).importance(p, n);
+        }
+    }
+}
+
+/// The share of one of them for many points, points in lanes.
+struct Shares<'a> {
+    few: &'a FewLights,
+    points: &'a LitPoints<'a>,
+    own: usize,
+    out: &'a mut [f32],
+}
+
+impl InLanes for Shares<'_> {
+    type Output = ();
+    #[inline(always)]
+    fn run<R: Real>(self) {
+        let Shares { few, points, own, out } = self;
+        let mut weights = [R::ZERO; WEIGH_ALL];
+        let weights = &mut weights[..few.lights.len().min(WEIGH_ALL)];
+        for k in (0..points.n_points).step_by(R::WIDTH) {
+            few.weigh(points, k, weights);
+            let total = weights.iter().fold(
+                R::ZERO,
+                #[inline(always)]
+                |sum, &w| sum + w,
+            );
+            let own = weights[own];
+            R::select(own.gt(R::ZERO), own / total, R::ZERO).store(out, k);
+        }
+    }
+}
+
 /// Chooses for many points, points in lanes.
 struct Choose<'a> {
     few: &'a FewLights,
@@ -125,19 +173,15 @@ impl InLanes for Choose<'_> {
     type Output = ();
     #[inline(always)]
     fn run<R: Real>(self) {
-        let (LitPoints { p, n, u, n_points }, FewLights { lights, labels, bounds }) = (self.points, self.few);
-        let n_lights = lights.len().min(WEIGH_ALL);
+        let (points, few) = (self.points, self.few);
         let mut weights = [R::ZERO; WEIGH_ALL];
+        let weights = &mut weights[..few.lights.len().min(WEIGH_ALL)];
         let mut chosen = [0.0; MAX_WIDTH];
-        for k in (0..*n_points).step_by(R::WIDTH) {
-            let p = vec3(R::load(p[0], k), R::load(p[1], k), R::load(p[2], k));
-            let n = vec3(R::load(n[0], k), R::load(n[1], k), R::load(n[2], k));
-            for (i, weight) in weights[..n_lights].iter_mut().enumerate() {
-                *weight = bounds[i / EIGHT].spread::<R>(i).importance(p, n);
-            }
-            let (place, share) = pick(&weights[..n_lights], R::load(u, k));
+        for k in (0..points.n_points).step_by(R::WIDTH) {
+            few.weigh(points, k, weights);
+            let (place, share) = pick(weights, R::load(points.u, k));
             share.store(self.probability, k);
-            place.look_up(labels).store(&mut chosen, 0);
+            place.look_up(&few.labels).store(&mut chosen, 0);
             let chosen = chosen[..R::WIDTH].iter().map(|label| label.to_bits());
             self.light[k..].iter_mut().zip(chosen).for_each(|(light, chosen)| *light = chosen);
         }

@@ -12,7 +12,7 @@ mod selection;
 mod tests;
 mod tree;
 
-use sparrow_geometry::{Geometry, SampleColumns, ShapeSample, SurfacePoint, Viewpoint};
+use sparrow_geometry::{Geometry, PdfColumns, SampleColumns, ShapeSample, SurfacePoint, Viewpoint};
 use sparrow_math::{InLanes, Real, Transform, Vec3, in_lanes, vec3};
 use sparrow_spectra::{N_LAMBDA, Spectrum, Wavelengths};
 
@@ -214,7 +214,12 @@ impl Lights {
         self.selection.probability(at, light)
     }
 
-    /// [`sample_many`](Self::sample_many) has lanes for that light.
+    /// [`probability`](Self::probability) of one light for each of `points`, to the bit. The column is as long as theirs.
+    pub(crate) fn probability_many(&self, points: &LitPoints<'_>, light: u32, out: &mut [f32]) {
+        self.selection.probability_many(points, light, out);
+    }
+
+    /// [`sample_many`](Self::sample_many) and [`met_many`](Self::met_many) have lanes for that light.
     pub(crate) fn samples_in_lanes(&self, geometry: &Geometry, light: u32) -> bool {
         match &self.lights[light as usize] {
             Light::Area { shape, prim, .. } => geometry.samples_in_lanes(*shape, *prim),
@@ -253,6 +258,26 @@ impl Lights {
             | Light::Uniform { .. }
             | Light::Environment(_) => None,
         }
+    }
+
+    /// What the light of a primitive sends from each of the first `n` points on it, and the
+    /// [density](Self::pdf_of_point) with which they are found, in lanes, to the bit. True where both sides shine; nothing is done for
+    /// lights that have no lanes.
+    pub(crate) fn met_many(
+        &self,
+        geometry: &Geometry,
+        light: u32,
+        columns: &mut PdfColumns<'_>,
+        n: usize,
+        nm: [&[f32]; N_LAMBDA],
+        radiance: [&mut [f32]; N_LAMBDA],
+    ) -> bool {
+        let Light::Area { shape, prim, emission, scale, two_sided } = &self.lights[light as usize] else {
+            return false;
+        };
+        geometry.pdf_from_many(*shape, *prim, columns, n);
+        self.emissions[*emission as usize].fill(*scale, nm, n, radiance);
+        *two_sided
     }
 
     /// What the light of a primitive sends from a point drawn on it; none to the side that does not shine.

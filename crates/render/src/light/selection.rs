@@ -107,6 +107,25 @@ impl LightSelection {
     }
 }
 
+impl LightSelection {
+    /// [`probability`](Self::probability) of one light for each of `points`, to the bit; in lanes, where lights are few and have
+    /// places. The column is as long as theirs.
+    pub(crate) fn probability_many(&self, points: &LitPoints<'_>, light: u32, out: &mut [f32]) {
+        match self {
+            LightSelection::ByPlace(ByPlace { bounded: Bounded::Few(few), infinite })
+                if infinite.is_empty() =>
+            {
+                few.probability_many(points, light, out);
+            }
+            LightSelection::ByPlace(_) | LightSelection::Fixed(_) | LightSelection::Empty => {
+                for (k, out) in out.iter_mut().take(points.n_points).enumerate() {
+                    *out = self.probability(&points.get(k), light);
+                }
+            }
+        }
+    }
+}
+
 impl ByPlace {
     /// Probability that any one infinite light is chosen.
     fn infinite_share(&self) -> f32 {
@@ -207,6 +226,9 @@ mod tests {
         let chosen = light.iter().zip(&probability).take(37);
         let chosen: Vec<_> = chosen.map(|(&l, &share)| (share > 0.0).then_some((l, share))).collect();
         assert_eq!(chosen, alone);
+        let mut told = [0.0; 48];
+        s.probability_many(&points, 2, &mut told);
+        assert!((0..37).all(|k| told[k].to_bits() == s.probability(&points.get(k), 2).to_bits()), "{told:?}");
         let of = |light: u32| chosen.iter().filter(|c| c.is_some_and(|c| c.0 == light)).count();
         assert!(of(0) > 3 && of(2) > 3, "{chosen:?}");
     }

@@ -4,7 +4,7 @@ use sparrow_spectra::{N_LAMBDA, Spectrum};
 
 use super::column::{BATCH, Column, put_spectrum, put_vector, spectrum};
 use super::paths::Paths;
-use crate::integrator::{Finder, PathIntegrator, Record};
+use crate::integrator::{PathIntegrator, Record};
 use crate::light::Environment;
 use crate::scene::Scene;
 
@@ -26,8 +26,8 @@ struct Columns {
 
 impl Escapes {
     /// The ray of a path left the scene.
-    pub(super) fn push(&mut self, path: usize) {
-        self.path.push(path as u32);
+    pub(super) fn push(&mut self, path: u32) {
+        self.path.push(path);
     }
 
     /// Adds what these rays found of the `light` all around, and forgets them.
@@ -53,8 +53,8 @@ impl Escapes {
                 &mut pdf[..],
             );
             for (k, i) in which.iter().map(|i| *i as usize).enumerate() {
-                let (beta, last, record) = (paths.beta(i), paths.last(i), &mut paths.record[i]);
-                let by = paths.steps[i].depth.checked_sub(1).map_or(Finder::Camera, Finder::Bsdf);
+                let (beta, last, by) = (paths.beta(i), paths.last(i), paths.finder(i));
+                let record = &mut paths.record[i];
                 let found = |light, w| record.found(by, beta * light, w);
                 let l = spectrum(radiance, k);
                 let l = scene.weighted((light, l), last.as_ref(), how.mis, |_| pdf[k], found);

@@ -14,6 +14,7 @@ mod escapes;
 mod families;
 mod fresh;
 mod groups;
+mod lamps;
 mod lanes;
 mod lights;
 mod onward;
@@ -31,10 +32,11 @@ use self::escapes::Escapes;
 use self::families::Families;
 use self::fresh::Fresh;
 use self::groups::Groups;
+use self::lamps::Lamps;
 use self::paths::{Paths, Steps};
 use self::shadow::Shadows;
 use super::start::FilmPlace;
-use super::{Exposed, Finder, PathIntegrator, RayCounts, Record};
+use super::{Exposed, PathIntegrator, RayCounts, Record};
 use crate::observe::TileObserver;
 use crate::plan::RenderPlan;
 use crate::sampler::Sampler;
@@ -57,6 +59,7 @@ pub(crate) struct Block<'a, R> {
     /// Places of paths that begin, and their families.
     begun: [Vec<u32>; 2],
     hits: Vec<Option<Hit>>,
+    lamps: Lamps,
     escapes: Escapes,
     groups: Groups,
     batch: Batch,
@@ -74,6 +77,7 @@ impl<R: Record + Default> Default for Block<'_, R> {
             ended: Vec::new(),
             begun: Default::default(),
             hits: Vec::new(),
+            lamps: Lamps::default(),
             escapes: Escapes::default(),
             groups: Groups::default(),
             batch: Batch::default(),
@@ -183,28 +187,23 @@ impl<'a, R: Record + Default> Block<'a, R> {
 
     /// Light that the rays found.
     fn emitted(&mut self, scene: &Scene, how: &PathIntegrator) {
-        let paths = &mut self.paths;
-        let (around, nothing) = (scene.lights().only_environment(), scene.lights().infinite().is_empty());
-        for (i, hit) in self.hits.iter().enumerate() {
-            let point = match hit {
-                None if nothing => continue,
-                None if around.is_some() => {
-                    self.escapes.push(i);
-                    continue;
+        let Block { paths, hits, lamps, escapes, .. } = self;
+        let lights = scene.lights();
+        let (around, nothing) = (lights.only_environment(), lights.infinite().is_empty());
+        lamps.clear(lights.len());
+        for (i, hit) in (0..).zip(&*hits) {
+            match hit {
+                Some(hit) => {
+                    lights.of_primitive(hit.shape, hit.prim).into_iter().for_each(|l| lamps.push(l, i));
                 }
-                Some(hit) if scene.lights().of_primitive(hit.shape, hit.prim).is_none() => continue,
-                Some(hit) => Some(scene.geometry().surface(&paths.ray[i], hit)),
-                None => None,
-            };
-            let (beta, last, lambda) = (paths.beta(i), paths.last(i), &paths.lambda(i));
-            let by = paths.steps[i].depth.checked_sub(1).map_or(Finder::Camera, Finder::Bsdf);
-            let record = &mut paths.record[i];
-            let found = |light, w| record.found(by, beta * light, w);
-            let l = scene.emitted(&paths.ray[i], point.as_ref(), last.as_ref(), how.mis, lambda, found);
-            paths.add(i, beta * l);
+                None if nothing => {}
+                None if around.is_some() => escapes.push(i),
+                None => paths.find(scene, how, i as usize, None),
+            }
         }
+        lamps.find(scene, how, paths, hits);
         if let Some(around) = around {
-            self.escapes.find(scene, how, around, paths);
+            escapes.find(scene, how, around, paths);
         }
     }
 

@@ -1,15 +1,15 @@
 //! The paths of a block: [`Paths`].
 
-use sparrow_geometry::Ray;
+use sparrow_geometry::{Hit, Ray};
 use sparrow_math::vec3;
 use sparrow_spectra::{Spectrum, Wavelengths};
 
 use super::fresh::Fresh;
-use crate::integrator::Record;
 use crate::integrator::start::FilmPlace;
+use crate::integrator::{Finder, PathIntegrator, Record};
 use crate::light::LitPoint;
 use crate::sampler::PixelSampler;
-use crate::scene::LastVertex;
+use crate::scene::{LastVertex, Scene};
 
 /// What stands for the density of a direction that a delta lobe gave, or the camera.
 pub(super) const NO_DENSITY: f64 = -1.0;
@@ -102,6 +102,11 @@ impl<R> Paths<'_, R> {
     pub(super) fn add(&mut self, i: usize, light: Spectrum<f32>) {
         self.found[i].iter_mut().zip(light.0).for_each(|(sum, l)| *sum += l);
     }
+    /// What cast the ray of path `i`.
+    #[inline(always)]
+    pub(super) fn finder(&self, i: usize) -> Finder {
+        self.steps[i].depth.checked_sub(1).map_or(Finder::Camera, Finder::Bsdf)
+    }
     /// The vertex with which the direction of path `i` was drawn, unless a delta lobe gave it, or the camera.
     #[inline(always)]
     pub(super) fn last(&self, i: usize) -> Option<LastVertex> {
@@ -160,6 +165,16 @@ impl<'a, R: Record + Default> Paths<'a, R> {
         self.way.push(way);
         self.family.push(self.family[i]);
         self.record.push(R::default());
+    }
+
+    /// Adds the light that the ray of path `i` found, at `hit` or where it left the scene.
+    pub(super) fn find(&mut self, scene: &Scene, how: &PathIntegrator, i: usize, hit: Option<&Hit>) {
+        let (ray, beta, last, by) = (&self.ray[i], self.beta(i), self.last(i), self.finder(i));
+        let (lambda, record) = (self.lambda(i), &mut self.record[i]);
+        let point = hit.map(|hit| scene.geometry().surface(ray, hit));
+        let found = |light, w| record.found(by, beta * light, w);
+        let l = scene.emitted(ray, point.as_ref(), last.as_ref(), how.mis, &lambda, found);
+        self.add(i, beta * l);
     }
 
     /// Forgets all paths.

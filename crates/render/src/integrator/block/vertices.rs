@@ -51,6 +51,10 @@ impl Vertices {
     pub(super) fn paths(&self) -> &[u32] {
         &self.path[..self.n]
     }
+    /// The same up to whole registers, where the last is repeated.
+    pub(super) fn padded_paths(&self) -> &[u32] {
+        &self.path
+    }
 
     /// Takes the vertices of `paths` numbered `which`, at most a batch, all of that material.
     pub(super) fn gather<R: Record + Default>(
@@ -61,16 +65,9 @@ impl Vertices {
         hits: &[Option<Hit>],
         (material, which): (&Material, &[u32]),
     ) {
-        self.n = which.len();
-        self.path.clear();
-        self.path.extend_from_slice(which);
-        if let Some(&last) = which.last() {
-            self.path.resize(padded(which.len()), last);
-        }
         if material.dispersive {
             which.iter().for_each(|&i| paths.terminate_secondary(i as usize));
         }
-        in_lanes(Gather { rays: Ray::rows(&paths.ray), carried: &paths.carried, vertices: self });
         for (k, &path) in which.iter().enumerate() {
             let Steps { depth, eta_scale, .. } = paths.steps[path as usize];
             self.eta_scale[k] = eta_scale;
@@ -79,6 +76,25 @@ impl Vertices {
         }
         let fibre = matches!(material.kind, ModelKind::Fibre(_));
         let parts = SurfaceParts { uv: material.textured || fibre, derivatives: material.textured };
+        self.take(scene, paths, hits, parts, which);
+    }
+
+    /// Takes where `paths` numbered `which`, at most a batch, met surfaces, and what they bring there.
+    pub(super) fn take<R>(
+        &mut self,
+        scene: &Scene,
+        paths: &Paths<'_, R>,
+        hits: &[Option<Hit>],
+        parts: SurfaceParts,
+        which: &[u32],
+    ) {
+        self.n = which.len();
+        self.path.clear();
+        self.path.extend_from_slice(which);
+        if let Some(&last) = which.last() {
+            self.path.resize(padded(which.len()), last);
+        }
+        in_lanes(Gather { rays: Ray::rows(&paths.ray), carried: &paths.carried, vertices: self });
         scene.geometry().surface_many(&paths.ray, hits, which, parts, &mut self.surface());
         let vectors = [&mut self.at.p, &mut self.ns, &mut self.tangent];
         vectors.into_iter().flatten().for_each(|c| pad(c, which.len()));
