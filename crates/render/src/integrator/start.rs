@@ -118,21 +118,22 @@ impl<'a, T: TileObserver> Exposed<'a, T> {
         lambda: &Wavelengths,
         record: &T::Record,
     ) {
-        self.take_rgb(place, self.plan.sensor.rgb(l, lambda), lambda, record);
+        self.take_rgb(place, self.plan.sensor.rgb(l, lambda), || *lambda, record);
     }
 
-    /// Takes what a path found, as [`FilmSensor::rgb`](crate::plan::FilmSensor::rgb) shows it.
+    /// Takes what a path found, as [`FilmSensor::rgb`](crate::plan::FilmSensor::rgb) shows it; `lambda` is asked by those who look on.
     #[inline(always)]
     pub(crate) fn take_rgb(
         &mut self,
         place: FilmPlace,
         rgb: [f32; 3],
-        lambda: &Wavelengths,
+        lambda: impl Fn() -> Wavelengths,
         record: &T::Record,
     ) {
         let sensor = &self.plan.sensor;
         let FilmPlace { pixel, weight, .. } = place;
-        let rgb = self.observer.take(Sample { pixel, rgb, weight }, record, |part| sensor.rgb(part, lambda));
+        let sample = Sample { pixel, rgb, weight };
+        let rgb = self.observer.take(sample, record, |part| sensor.rgb(part, &lambda()));
         self.film.add(pixel[0], pixel[1], rgb, weight);
     }
 

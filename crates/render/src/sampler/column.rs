@@ -3,6 +3,7 @@
 //! Short loops over arrays of whole numbers, one operation each. [`in_lanes`] compiles them for the vector unit, and the
 //! compiler turns each into lanes of eight.
 
+use core::convert::identity;
 use core::ops::Range;
 
 use sparrow_math::{InLanes, Real, in_lanes};
@@ -42,7 +43,7 @@ impl Sampler {
         let mut chunk = Chunk::new(self);
         let mut first = 0;
         while first < n {
-            chunk.gather((first..n).map(&at));
+            chunk.gather(n - first, |k| at(first + k));
             let places = first..first + chunk.n;
             for draw in draws.iter_mut() {
                 if chunk.has_columns(draw) {
@@ -113,19 +114,20 @@ impl<'a> Chunk<'a> {
         Chunk { sampler, n: 0, dimension: 0, keys: [0; CHUNK], index: [[0; CHUNK]; 2] }
     }
 
-    /// Takes the first of `paths`, as many as fit and belong together.
-    fn gather<'p>(&mut self, paths: impl ExactSizeIterator<Item = PixelSampler<'p>> + Clone) {
-        self.dimension = paths.clone().next().map_or(0, |path| path.dimension());
-        self.n = paths.len().min(CHUNK);
+    /// Takes the first of `n` pixel samples, as many as fit and belong together.
+    fn gather<'p>(&mut self, n: usize, at: impl Fn(usize) -> PixelSampler<'p>) {
+        let mut n = n.min(CHUNK);
         let [low, high] = &mut self.index;
+        self.dimension = if n > 0 { at(0).dimension() } else { 0 };
         if self.sampler.has_tables() {
-            let alike = paths.clone().take(CHUNK).take_while(|path| path.dimension() == self.dimension);
-            self.n = alike.count();
-            high.iter_mut().zip(paths.clone()).for_each(|(high, path)| *high = (path.index >> 32) as u32);
+            n = (0..n).take_while(|k| at(*k).dimension() == self.dimension).count().min(CHUNK);
+            high[..n].iter_mut().enumerate().for_each(|(k, high)| *high = (at(k).index >> 32) as u32);
         }
-        for (k, path) in (0..self.n.min(CHUNK)).zip(paths) {
-            (self.keys[k], low[k]) = (path.key_here(), path.index as u32);
+        for (k, (key, low)) in self.keys[..n].iter_mut().zip(&mut low[..n]).enumerate() {
+            let path = at(k);
+            (*key, *low) = (path.key_here(), path.index as u32);
         }
+        self.n = n;
     }
 
     /// There is a form in lanes.
@@ -194,34 +196,24 @@ impl Chunk<'_> {
             split(keys, low, high);
             return pair.iter_mut().zip([low, high]).for_each(|(out, v)| store(v, out));
         }
-        let (mut seeds, mut index, mut v) = ([0; CHUNK], [0; CHUNK], [0; CHUNK]);
-        let (seeds, index, v) = (&mut seeds[..m], &mut index[..m], &mut v[..m]);
+        let (mut index, mut v) = ([0; CHUNK], [0; CHUNK]);
+        let (index, v) = (&mut index[..m], &mut v[..m]);
         self.keys(of_pair, keys);
-        split(keys, low, seeds);
-        index.copy_from_slice(&self.index[0][..m]);
-        scramble(index, low);
-        times_golden(keys);
         split(keys, low, high);
-        for (i, b) in index.iter_mut().zip(&*low) {
-            *i = self.sampler.blocks.permute(*i, *b);
+        scramble(index, &self.index[0], low, identity);
+        for (i, key) in index.iter_mut().zip(&*low) {
+            *i = self.sampler.blocks.permute(*i, key.wrapping_mul(GOLDEN as u32));
         }
-        v.copy_from_slice(index);
-        scramble(v, seeds);
+        scramble(v, index, high, identity);
         store(v, pair[0]);
         if let Some(out) = pair.get_mut(1) {
-            for (v, i) in v.iter_mut().zip(&*index) {
-                *v = second_dimension(*i);
-            }
-            scramble(v, high);
+            times_golden(keys, high);
+            scramble(v, index, high, second_dimension);
             store(v, out);
         }
         for out in single {
-            times_golden(keys);
-            split(keys, low, high);
-            for (v, i) in v.iter_mut().zip(&*index) {
-                *v = third_dimension(*i);
-            }
-            scramble(v, high);
+            times_golden(keys, high);
+            scramble(v, index, high, third_dimension);
             store(v, out);
         }
     }
@@ -260,9 +252,6 @@ impl Chunk<'_> {
                 }
             }
         }
-        for v in &mut *v {
-            *v = v.reverse_bits();
-        }
         let mut seeds = [sobol_seed(self.sampler.seed, d, 0); CHUNK];
         if used >> sobol::N_COLUMNS != 0 {
             for ((s, l), h) in seeds.iter_mut().zip(low).zip(high) {
@@ -270,8 +259,9 @@ impl Chunk<'_> {
                 *s = sobol_seed(self.sampler.seed, d, sobol::turn(index));
             }
         }
-        scramble(v, &seeds[..m]);
-        store(v, out);
+        let mut scrambled = [0; CHUNK];
+        scramble(&mut scrambled[..m], v, &seeds, u32::reverse_bits);
+        store(&scrambled, out);
     }
 }
 
@@ -283,19 +273,21 @@ fn split(words: &[u64], low: &mut [u32], high: &mut [u32]) {
     }
 }
 
-/// Keys of the next coordinate.
+/// Keys of the next coordinate, and their upper halves.
 #[inline(always)]
-fn times_golden(keys: &mut [u64]) {
-    for k in keys {
+fn times_golden(keys: &mut [u64], high: &mut [u32]) {
+    for (k, h) in keys.iter_mut().zip(high) {
         *k = k.wrapping_mul(GOLDEN);
+        *h = (*k >> 32) as u32;
     }
 }
 
-/// Scrambles numbers whose lowest bit leads, each by its seed; the result leads with its highest.
+/// Scrambles coordinates of points, each by its seed. `of` makes a coordinate of an index, with the lowest bit leading; the
+/// result leads with its highest.
 #[inline(always)]
-fn scramble(v: &mut [u32], seeds: &[u32]) {
-    for (v, s) in v.iter_mut().zip(seeds) {
-        *v = nested(*v, *s).reverse_bits();
+fn scramble(out: &mut [u32], index: &[u32], seeds: &[u32], of: impl Fn(u32) -> u32) {
+    for ((out, i), s) in out.iter_mut().zip(index).zip(seeds) {
+        *out = nested(of(*i), *s).reverse_bits();
     }
 }
 

@@ -87,9 +87,10 @@ impl Batch {
         (paths, hits): (&mut Paths<'_, R>, &[Option<Hit>]),
         (key, which): (u32, &[u32]),
     ) {
+        let (numbers, steps) = (&paths.sampler[..], &paths.steps[..paths.sampler.len()]);
         let at = |k: usize| {
             let i = which[k] as usize;
-            paths.sampler[i].at(light_dimension(paths.steps[i].depth))
+            numbers[i].at(light_dimension(steps[i].depth))
         };
         let choices = scene.lights().len() > 1 || how.mis.takes_turns();
         let roulette = which.iter().any(|&i| paths.steps[i as usize].depth > 0);

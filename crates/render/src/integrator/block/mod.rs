@@ -239,7 +239,7 @@ impl<'a, R: Record + Default> Block<'a, R> {
             #[inline(always)]
             |i, rgb| {
                 if tile.how.splits == 1 {
-                    tile.take_rgb(place[i], rgb, &paths.lambda(i), &record[i]);
+                    tile.take_rgb(place[i], rgb, || paths.lambda(i), &record[i]);
                 } else if let Some((place, parts)) = families.take(paths.family[i], paths.way[i], rgb) {
                     tile.take_parts(place, parts);
                 }
