@@ -209,10 +209,10 @@ impl<S: Simd> Nearest<S> {
         let [height, terms] = height_of(to);
         let aside = S::F8::splat(5.0 * ROUNDING) * terms + S::F8::splat(f.bent);
         let sided = aside.le(height.abs()) & (S::F8::splat(4.0) * rays.turn).lt(steep);
-        let met = met & !(sided & height.signed(slope).le(zero));
         let far = sum_abs::<S>(to) + S::F8::splat(f.across);
         let dt = far * S::F8::splat(ROUNDING) * S::F8::load(&f.depth);
         let t = height.signed(slope);
+        let met = met & !(sided & t.le(zero)) & (t - dt).le(self.t[1] * steep);
         if ANY {
             let mut sure = met & x.abs().lt(steep - dx) & y.abs().lt(steep - dy);
             sure = sure & dt.lt(t) & t.lt(self.t[0] * steep - dt);
