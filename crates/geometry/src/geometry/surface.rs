@@ -4,7 +4,7 @@ use sparrow_math::{MAX_WIDTH, Vec3};
 
 use super::Geometry;
 use super::body::Body;
-use crate::columns::{PointBlock, SurfaceColumns, SurfaceParts};
+use crate::columns::{PointBlock, PointRows, SurfaceColumns, SurfaceParts};
 use crate::point::SurfacePoint;
 use crate::quadric::{Met, Quadric};
 use crate::ray::{Hit, Ray};
@@ -50,7 +50,7 @@ impl Geometry {
         parts: SurfaceParts,
         out: &mut SurfaceColumns<'_>,
     ) {
-        let (mut block, mut met) = (PointBlock::default(), Met::default());
+        let (mut rows, mut block, mut met) = (PointRows::default(), PointBlock::default(), Met::default());
         for (n, which) in which.chunks(MAX_WIDTH).enumerate() {
             match self.ball_of(hits, which).filter(|_| parts == SurfaceParts::default()) {
                 Some(ball) => {
@@ -59,17 +59,18 @@ impl Geometry {
                         met.set(k, &rays[i as usize], t);
                     }
                     ball.surface_many(&met, &mut block);
+                    out.write(n * MAX_WIDTH, &block);
                 }
                 None => {
                     self.ahead(hits, which);
                     for (k, &i) in which.iter().enumerate() {
                         if let Some(hit) = &hits[i as usize] {
-                            self.put(&rays[i as usize], hit, k, &mut block, parts);
+                            self.put(&rays[i as usize], hit, k, &mut rows, parts);
                         }
                     }
+                    out.turn(n * MAX_WIDTH, &rows, parts);
                 }
             }
-            out.write(n * MAX_WIDTH, &block, parts);
         }
     }
     /// Asks for what the surface at these hits will read, where the first of them lies on a mesh.
@@ -87,13 +88,13 @@ impl Geometry {
         met().for_each(|(m, prim)| m.indices_ahead(prim));
         met().for_each(|(m, prim)| m.corners_ahead(prim));
     }
-    /// The surface at a hit, to place `k` of a block.
+    /// The surface at a hit, to place `k` of rows.
     #[inline(always)]
-    fn put(&self, ray: &Ray, hit: &Hit, k: usize, block: &mut PointBlock, parts: SurfaceParts) {
+    fn put(&self, ray: &Ray, hit: &Hit, k: usize, rows: &mut PointRows, parts: SurfaceParts) {
         match (hit.instance, &self.bodies.bodies[hit.shape as usize]) {
-            (None, Body::Patches(m)) => m.put(hit, k, block, parts),
-            (None, Body::Triangles(m)) => block.put(k, &m.surface(hit), parts),
-            _ => block.put(k, &self.surface(ray, hit), parts),
+            (None, Body::Patches(m)) => m.put(hit, k, rows, parts),
+            (None, Body::Triangles(m)) => rows.put(k, &m.surface(hit), parts),
+            _ => rows.put(k, &self.surface(ray, hit), parts),
         }
     }
     /// The whole ball of the world on which all of these hits lie.

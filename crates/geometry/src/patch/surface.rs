@@ -4,7 +4,7 @@ use sparrow_math::{Vec3, vec3};
 
 use super::flat::p_error;
 use super::{Bilinear, Flat, Kind, Patches};
-use crate::columns::{PointBlock, SurfaceParts};
+use crate::columns::{PointRows, SurfaceParts};
 use crate::point::SurfacePoint;
 use crate::ray::Hit;
 
@@ -120,12 +120,12 @@ impl Patches {
             None => self.surface_of_any(hit),
         }
     }
-    /// The same, to place `k` of a block.
+    /// The same, to place `k` of rows.
     #[inline(always)]
-    pub(crate) fn put(&self, hit: &Hit, k: usize, block: &mut PointBlock, parts: SurfaceParts) {
+    pub(crate) fn put(&self, hit: &Hit, k: usize, rows: &mut PointRows, parts: SurfaceParts) {
         match self.plain(hit.prim) {
-            Some(flat) => block.put(k, &flat.surface(hit), parts),
-            None => block.put(k, &self.surface_of_any(hit), parts),
+            Some(flat) => flat.put(hit, k, rows, parts),
+            None => rows.put(k, &self.surface_of_any(hit), parts),
         }
     }
     fn surface_of_any(&self, hit: &Hit) -> SurfacePoint {

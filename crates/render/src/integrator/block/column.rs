@@ -34,15 +34,7 @@ impl DerefMut for Column {
 }
 
 /// The places of lanes among themselves.
-pub(super) const LANES: [u32; MAX_WIDTH] = {
-    let mut places = [0; MAX_WIDTH];
-    let mut i = 0;
-    while i < MAX_WIDTH {
-        places[i] = i as u32;
-        i += 1;
-    }
-    places
-};
+pub(super) const LANES: [u32; MAX_WIDTH] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15];
 
 /// The vertices whose lanes are computed where `n` count: up to whole registers.
 #[inline(always)]
