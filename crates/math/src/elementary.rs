@@ -4,7 +4,7 @@
 //! [AbramowitzStegun, 9.8.1, 9.8.2]. Largest errors seen in the tests, in units in the last place:
 //! `exp` 1.5, `ln` 1.5, `sin`, `cos` 2 on [0, 2 pi], `atan2` 3.5, `i0e` 12.
 
-use crate::real::{Mask, Real};
+use crate::{Mask, Real};
 use core::f64::consts::{FRAC_1_SQRT_2, FRAC_2_PI, FRAC_PI_2, FRAC_PI_4, LOG2_E, PI};
 
 /// Horner's rule; coefficients from the highest power down.

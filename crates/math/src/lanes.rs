@@ -6,7 +6,7 @@
 
 use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
-use crate::real::{Mask, Real};
+use crate::{Mask, Real};
 
 /// `N` numbers side by side. `FMA` says whether the enclosing kernel has a fused multiply-add; with
 /// `FMA = false` every lane equals scalar `f32` bit for bit.

@@ -1,36 +1,9 @@
-//! The number type a formula is written for: [`Real`], and its comparisons, [`Mask`].
+//! The number type a formula is written for: [`Real`].
 
 use core::fmt::Debug;
-use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
+use core::ops::{Add, Div, Mul, Neg, Sub};
 
-use crate::{double, elementary};
-
-/// The answer of a comparison, one truth value per lane.
-pub trait Mask:
-    Copy + Debug + BitAnd<Output = Self> + BitOr<Output = Self> + Not<Output = Self> + 'static
-{
-    /// The same truth value in every lane.
-    fn of(b: bool) -> Self;
-    /// True where at least one lane is true.
-    fn any(self) -> bool;
-    /// True where every lane is true.
-    fn all(self) -> bool;
-}
-
-impl Mask for bool {
-    #[inline(always)]
-    fn of(b: bool) -> bool {
-        b
-    }
-    #[inline(always)]
-    fn any(self) -> bool {
-        self
-    }
-    #[inline(always)]
-    fn all(self) -> bool {
-        self
-    }
-}
+use crate::{Mask, double, elementary};
 
 /// Most lanes of a number type.
 pub const MAX_WIDTH: usize = 16;
@@ -77,6 +50,32 @@ pub trait Real:
     ///
     /// Panics where the table is empty.
     fn look_up(self, table: &[f32]) -> Self;
+    /// Reads the four numbers side by side in the row of `table` that [`look_up`](Self::look_up) would find.
+    ///
+    /// Panics where the table is empty.
+    #[inline(always)]
+    fn look_up_fours(self, table: &[[f32; 4]]) -> [Self; 4] {
+        let mut columns = [[0.0; MAX_WIDTH]; 4];
+        for (lane, at) in self.places(table.len()).into_iter().enumerate().take(Self::WIDTH) {
+            for (column, x) in columns.iter_mut().zip(table[at as usize]) {
+                column[lane] = x;
+            }
+        }
+        let [a, b, c, d] = &columns;
+        [Self::load(a, 0), Self::load(b, 0), Self::load(c, 0), Self::load(d, 0)]
+    }
+    /// Reads the eight numbers side by side in the row of `table` that [`look_up`](Self::look_up) would find.
+    ///
+    /// Panics where the table is empty.
+    #[inline(always)]
+    fn look_up_rows(self, table: &[[f32; 8]]) -> [Self; 8] {
+        Self::gather_rows(table, &self.places(table.len()))
+    }
+    /// Where [`look_up`](Self::look_up) reads in a table of that length, for each lane.
+    #[inline(always)]
+    fn places(self, len: usize) -> [u32; MAX_WIDTH] {
+        self.to_doubles().map(|x| (x as usize).min(len - 1) as u32)
+    }
     /// Reads eight numbers for every lane, which stand side by side in the row of `table` that its place of `at` names.
     ///
     /// Panics where `at` has fewer than `WIDTH` places, or one is not in the table.
@@ -281,6 +280,14 @@ impl Real for f32 {
     }
     #[inline(always)]
     fn look_up(self, table: &[f32]) -> f32 {
+        table[(self as usize).min(table.len() - 1)]
+    }
+    #[inline(always)]
+    fn look_up_fours(self, table: &[[f32; 4]]) -> [f32; 4] {
+        table[(self as usize).min(table.len() - 1)]
+    }
+    #[inline(always)]
+    fn look_up_rows(self, table: &[[f32; 8]]) -> [f32; 8] {
         table[(self as usize).min(table.len() - 1)]
     }
     #[inline(always)]

@@ -22,12 +22,18 @@ const EDGES: [f32; 16] = [
     16_777_216.0,
 ];
 
+/// Rows to be looked up.
+const FOURS: [[f32; 4]; 3] = [[1.0, 2.0, 3.0, 4.0], [0.5, 7.0, 7.0, -1.0], [9.0, 8.0, 7.0, 9.5]];
+const ROWS: [[f32; 8]; 2] = [[0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0], [9.0; 8]];
+
 /// What `Real` can do, of two numbers; comparisons as 0 and 1.
 #[inline(always)]
-fn everything<R: Real>(a: R, b: R) -> [R; 26] {
+fn everything<R: Real>(a: R, b: R) -> [R; 28] {
     let bit = |m: R::Mask| R::ONE.only_where(m);
     let (mantissa, exponent) = a.frexp();
     let (sin, cos) = a.sin_cos();
+    let [of_four, .., of_four2] = a.look_up_fours(&FOURS);
+    let [.., of_eight, _] = (a - b).look_up_rows(&ROWS);
     [
         a + b,
         a - b,
@@ -55,6 +61,8 @@ fn everything<R: Real>(a: R, b: R) -> [R; 26] {
         sin + cos,
         a.atan2(b),
         a.look_up(&EDGES),
+        of_four - of_four2,
+        of_eight,
     ]
 }
 
@@ -64,7 +72,7 @@ impl InLanes for Everything<'_> {
     type Output = (usize, Vec<f32>);
     #[inline(always)]
     fn run<R: Real>(self) -> (usize, Vec<f32>) {
-        let mut all = vec![0.0; 26 * self.0.len()];
+        let mut all = vec![0.0; 28 * self.0.len()];
         for i in (0..self.0.len()).step_by(R::WIDTH) {
             let results = everything(R::load(self.0, i), R::load(self.1, i));
             for (k, r) in results.into_iter().enumerate() {

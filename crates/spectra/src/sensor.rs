@@ -38,6 +38,8 @@ const NAMES: [&str; 20] = [
 #[derive(Clone, Debug)]
 pub struct Sensor {
     bars: [DenseSpectrum; 3],
+    /// The same with their values side by side, and a zero.
+    rows: Vec<[f32; 4]>,
     imaging_ratio: f32,
     output_from_sensor: [[f32; 3]; 3],
     xyz_from_sensor: [[f32; 3]; 3],
@@ -67,8 +69,11 @@ impl Sensor {
             (bars, to_xyz)
         };
         let to_output = matrix::product(&space.conversions().from_xyz, &to_xyz);
+        let [r, g, b] = bars.each_ref().map(DenseSpectrum::values);
+        let rows = r.iter().zip(g).zip(b).map(|((r, g), b)| [*r, *g, *b, 0.0]).collect();
         Some(Self {
             bars,
+            rows,
             imaging_ratio,
             output_from_sensor: matrix::to_f32(&to_output),
             xyz_from_sensor: matrix::to_f32(&to_xyz),
@@ -93,16 +98,15 @@ impl Sensor {
     /// index.
     #[inline(always)]
     pub fn respond<R: Real>(&self, l: Spectrum<R>, pdf: Spectrum<R>, index: [R; N_LAMBDA]) -> [R; 3] {
-        let mut rgb = [R::ZERO; 3];
-        for (rgb, bar) in rgb.iter_mut().zip(&self.bars) {
-            let mut seen = Spectrum([R::ZERO; N_LAMBDA]);
-            for i in 0..N_LAMBDA {
-                let there = pdf[i].gt(R::ZERO);
-                seen.0[i] = bar.look_up(index[i]) * R::select(there, l[i] / pdf[i], R::ZERO);
-            }
-            *rgb = R::of(f64::from(self.imaging_ratio)) * seen.average();
+        let mut seen = [Spectrum([R::ZERO; N_LAMBDA]); 3];
+        for i in 0..N_LAMBDA {
+            let [r, g, b, _] = index[i].look_up_fours(&self.rows);
+            let there = R::select(pdf[i].gt(R::ZERO), l[i] / pdf[i], R::ZERO);
+            (seen[0].0[i], seen[1].0[i], seen[2].0[i]) = (r * there, g * there, b * there);
         }
-        rgb
+        let [r, g, b] = seen;
+        let ratio = R::of(f64::from(self.imaging_ratio));
+        [ratio * r.average(), ratio * g.average(), ratio * b.average()]
     }
 
     /// Matrix from sensor RGB to linear RGB of the output space, rows first.

@@ -2,14 +2,16 @@
 
 use std::sync::OnceLock;
 
-use sparrow_math::{Mask, Real};
+use sparrow_math::Real;
 
-use crate::{ColorSpace, LAMBDA_MIN, N_DENSE, cie};
+use crate::{ColorSpace, LAMBDA_MAX, LAMBDA_MIN, N_DENSE, N_LAMBDA, cie};
 
 /// Bins of one nanometre between 360 and 830.
 const N_BINS: usize = N_DENSE - 1;
-/// Entries of the table that says where to begin looking.
-const N_GUIDE: usize = 2048;
+/// Cells of equal probability.
+const N_CELLS: usize = 1024;
+/// Cells of a quarter of the probability.
+const N_QUARTER: usize = N_CELLS / N_LAMBDA;
 /// Width of the smoothing, in nm.
 const SIGMA: f32 = 20.0;
 
@@ -21,14 +23,12 @@ const SIGMA: f32 = 20.0;
 /// of 0.043 (summed over the channels, relative to white), where pbrt-v4's density for luminance leaves 0.365, most of
 /// that in blue; for incandescent light 0.12 against 0.15, for saturated red 0.34 against 1.6.
 ///
-/// Constant within each nanometre.
+/// Constant within each of [`N_CELLS`] cells of equal probability, so that no cell has to be searched for.
 pub(crate) struct Visible {
-    /// Density of each bin, in 1/nm.
-    pdf: [f32; N_BINS],
-    /// Share below each bin's lower end; the last is 1.
-    cdf: [f32; N_DENSE],
-    /// For each of `N_GUIDE` equal steps of the uniform number, a bin at or before the one sought.
-    guide: [f32; N_GUIDE],
+    /// Ends of the cells, in nm.
+    ends: [f32; N_CELLS + 1],
+    /// For each cell of the first quarter: where that one and its companions of the other quarters begin, then their widths, in nm.
+    cells: [[f32; 2 * N_LAMBDA]; N_QUARTER],
 }
 
 impl Visible {
@@ -41,52 +41,61 @@ impl Visible {
     fn new() -> Visible {
         let weight = smoothed(&rgb_weight());
         let total: f64 = weight.iter().sum();
-        let mut v = Visible { pdf: [0.0; N_BINS], cdf: [0.0; N_DENSE], guide: [0.0; N_GUIDE] };
-        let mut sum = 0.0;
+        let mut ends = [LAMBDA_MIN; N_CELLS + 1];
+        let (mut below, mut cell) = (0.0, 1);
         for (i, w) in weight.iter().enumerate() {
-            sum += w / total;
-            v.cdf[i + 1] = sum as f32;
-        }
-        v.cdf[N_BINS] = 1.0;
-        // The density that sampling has after its shares were rounded.
-        for (i, p) in v.pdf.iter_mut().enumerate() {
-            *p = v.cdf[i + 1] - v.cdf[i];
-        }
-        let mut bin = 0;
-        for (k, g) in v.guide.iter_mut().enumerate() {
-            while v.cdf[bin + 1] <= k as f32 / N_GUIDE as f32 {
-                bin += 1;
+            let share = w / total * N_CELLS as f64;
+            while cell < N_CELLS && below + share >= cell as f64 {
+                ends[cell] = (f64::from(LAMBDA_MIN) + i as f64 + (cell as f64 - below) / share) as f32;
+                cell += 1;
             }
-            *g = bin as f32;
+            below += share;
         }
-        v
+        ends[N_CELLS] = LAMBDA_MAX;
+        let cells = core::array::from_fn(|j| {
+            let of = |k: usize| j + k % N_LAMBDA * N_QUARTER;
+            core::array::from_fn(|k| if k < N_LAMBDA { ends[of(k)] } else { ends[of(k) + 1] - ends[of(k)] })
+        });
+        Visible { ends, cells }
     }
 
-    /// The wavelength in nm that `u` in [0, 1) stands for, and its density in 1/nm.
+    /// The four wavelengths in nm that `u + i/4` in [0, 1), wrapped, stand for, and their densities in 1/nm.
     #[inline(always)]
-    pub(crate) fn sample<R: Real>(&self, u: R) -> (R, R) {
-        let mut bin = (u * R::of(N_GUIDE as f64)).look_up(&self.guide);
-        let above = loop {
-            let next = bin + R::ONE;
-            let above = next.look_up(&self.cdf);
-            let beyond = next.lt(R::of(N_BINS as f64)) & above.le(u);
-            if !beyond.any() {
-                break above;
-            }
-            bin = R::select(beyond, next, bin);
-        };
-        let below = bin.look_up(&self.cdf);
-        let pdf = above - below;
-        let inside = ((u - below) / pdf).clamp(R::ZERO, R::ONE);
-        (R::of(f64::from(LAMBDA_MIN)) + bin + inside, pdf)
+    pub(crate) fn sample<R: Real>(&self, u: R) -> ([R; N_LAMBDA], [R; N_LAMBDA]) {
+        let place = u * R::of(N_CELLS as f64);
+        let (half, quarter) = (R::of((N_CELLS / 2) as f64), R::of(N_QUARTER as f64));
+        // In the upper half, and in the upper quarter of a half.
+        let upper = place.ge(half);
+        let place = R::select(upper, place - half, place);
+        let odd = place.ge(quarter);
+        let place = R::select(odd, place - quarter, place);
+        let [a, b, c, d, v, w, x, y] = place.look_up_rows(&self.cells);
+        let nearest = place.round();
+        let inside = place - R::select(nearest.gt(place), nearest - R::ONE, nearest);
+        let (lambda, width) =
+            ([a + inside * v, b + inside * w, c + inside * x, d + inside * y], [v, w, x, y]);
+        let share = R::of(1.0 / N_CELLS as f64);
+        let pdf = [share / width[0], share / width[1], share / width[2], share / width[3]];
+        (turned(lambda, odd, upper), turned(pdf, odd, upper))
     }
 
     /// Density of a wavelength, in 1/nm; zero outside 360..830 nm.
     #[inline]
     pub(crate) fn pdf(&self, lambda: f32) -> f32 {
-        let x = lambda - LAMBDA_MIN;
-        if (0.0..=N_BINS as f32).contains(&x) { self.pdf[(x as usize).min(N_BINS - 1)] } else { 0.0 }
+        if !(LAMBDA_MIN..=LAMBDA_MAX).contains(&lambda) {
+            return 0.0;
+        }
+        let cell = self.ends[1..N_CELLS].partition_point(|end| *end <= lambda);
+        1.0 / (N_CELLS as f32 * (self.ends[cell + 1] - self.ends[cell]))
     }
+}
+
+/// Numbers of the quarters, the own one first: one on where `odd`, two where `upper`.
+#[inline(always)]
+fn turned<R: Real>([a, b, c, d]: [R; N_LAMBDA], odd: R::Mask, upper: R::Mask) -> [R; N_LAMBDA] {
+    let [a, b, c, d] =
+        [R::select(odd, b, a), R::select(odd, c, b), R::select(odd, d, c), R::select(odd, a, d)];
+    [R::select(upper, c, a), R::select(upper, d, b), R::select(upper, a, c), R::select(upper, b, d)]
 }
 
 /// Length of the RGB vector that D65 light of a wavelength adds to a picture.

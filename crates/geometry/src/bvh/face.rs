@@ -25,6 +25,8 @@ pub(crate) struct Extent {
     /// Margin of the distance from the plane: times half a unit in the last place and the distance of anything from the ray's origin.
     pub(crate) depth: Repeated,
     pub(crate) center: [f32; 3],
+    /// The longer diagonal.
+    pub(crate) across: f32,
     /// How far corners lie beside the plane.
     pub(crate) bent: f32,
     /// The place of the triangle; of a parallelogram's two, of the one whose first coordinate is the larger, and the next is the other's.
@@ -75,13 +77,15 @@ impl Frame {
         // corners there by two of the second.
         let steep = [2.0 * f.length() / area, 2.0 * e.length() / area];
         let margins = steep.map(|s| [(64.0 * s + 8.0 * wide / across) as f32; RAYS]);
-        let depth = 64.0 * steep[0].max(steep[1]) * across + 16.0;
+        // That of the corners moves distances by 24; products move weights of corners, and these distances, by less than the other.
+        let depth = 32.0 + 24.0 * wide;
         let (plane, middle) = (normal.to_f32().to_f64(), center.to_f32().to_f64());
         let bent = corners.iter().map(|&c| plane.dot(c - middle).abs()).fold(0.0, f64::max) * 1.001;
         let extent = Extent {
             margins,
             depth: [depth as f32; RAYS],
             center: center.to_f32().to_array(),
+            across: across as f32 * 1.001,
             bent: bent as f32,
             place,
         };

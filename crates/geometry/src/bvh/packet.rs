@@ -204,11 +204,15 @@ impl<S: Simd> Nearest<S> {
         if !met.any() {
             return;
         }
-        // A ray leaves its own surface closer than margins can tell.
-        let [height, terms] = height_of(minus::<S>(splat::<S>(f.center), rays.o));
+        // A ray leaves its own surface closer than these margins can tell, or even in the plane, and ends that close before others.
+        let to = minus::<S>(splat::<S>(f.center), rays.o);
+        let [height, terms] = height_of(to);
         let aside = S::F8::splat(5.0 * ROUNDING) * terms + S::F8::splat(f.bent);
-        let sided = aside.lt(height.abs()) & (S::F8::splat(4.0) * rays.turn).lt(steep);
-        let met = met & !(sided & height.signed(slope).lt(zero));
+        let sided = aside.le(height.abs()) & (S::F8::splat(4.0) * rays.turn).lt(steep);
+        let far = sum_abs::<S>(to) + S::F8::splat(f.across);
+        let dt = far * S::F8::splat(ROUNDING) * S::F8::load(&f.depth);
+        let t = height.signed(slope);
+        let met = met & !(sided & t.le(zero)) & (t - dt).le(self.t[1] * steep);
         if ANY {
             let mut sure = met & x.abs().lt(steep - dx) & y.abs().lt(steep - dy);
             sure = sure & dt.lt(t) & t.lt(self.t[0] * steep - dt);

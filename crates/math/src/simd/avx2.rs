@@ -5,19 +5,20 @@
 #![allow(unsafe_code, reason = "vector registers; every operation is tested against f32")]
 
 use core::arch::x86_64::{
-    __m256, _CMP_LE_OQ, _CMP_LT_OQ, _mm256_add_epi32, _mm256_add_ps, _mm256_and_ps, _mm256_andnot_ps,
-    _mm256_blendv_ps, _mm256_castps_si256, _mm256_castsi256_ps, _mm256_cmp_ps, _mm256_cvtepi32_ps,
-    _mm256_cvttps_epi32, _mm256_div_ps, _mm256_i32gather_ps, _mm256_loadu_ps, _mm256_max_ps,
-    _mm256_min_epu32, _mm256_min_ps, _mm256_movemask_ps, _mm256_mul_ps, _mm256_or_ps, _mm256_permute2f128_ps,
-    _mm256_set1_epi32, _mm256_set1_ps, _mm256_setzero_ps, _mm256_shuffle_ps, _mm256_slli_epi32,
-    _mm256_sqrt_ps, _mm256_srli_epi32, _mm256_storeu_ps, _mm256_sub_epi32, _mm256_sub_ps, _mm256_unpackhi_ps,
-    _mm256_unpacklo_ps, _mm256_xor_ps,
+    __m256, _CMP_LE_OQ, _CMP_LT_OQ, _mm_loadu_ps, _mm256_add_epi32, _mm256_add_ps, _mm256_and_ps,
+    _mm256_andnot_ps, _mm256_blendv_ps, _mm256_castps_si256, _mm256_castsi256_ps, _mm256_cmp_ps,
+    _mm256_cvtepi32_ps, _mm256_cvttps_epi32, _mm256_div_ps, _mm256_i32gather_ps, _mm256_loadu_ps,
+    _mm256_max_ps, _mm256_min_epu32, _mm256_min_ps, _mm256_movemask_ps, _mm256_mul_ps, _mm256_or_ps,
+    _mm256_permute2f128_ps, _mm256_set_m128, _mm256_set1_epi32, _mm256_set1_ps, _mm256_setzero_ps,
+    _mm256_shuffle_ps, _mm256_slli_epi32, _mm256_sqrt_ps, _mm256_srli_epi32, _mm256_storeu_ps,
+    _mm256_storeu_si256, _mm256_sub_epi32, _mm256_sub_ps, _mm256_unpackhi_ps, _mm256_unpacklo_ps,
+    _mm256_xor_ps,
 };
 use core::fmt::{Debug, Formatter};
 use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
 use super::InLanes;
-use crate::{Mask, Real};
+use crate::{MAX_WIDTH, Mask, Real};
 
 /// Runs `work` with AVX2, which the caller has found.
 pub(super) fn run<W: InLanes>(work: W) -> W::Output {
@@ -60,6 +61,13 @@ impl F32x8 {
     #[inline(always)]
     fn row(table: &[[f32; 8]], i: u32) -> F32x8 {
         F32x8::load(&table[i as usize], 0)
+    }
+    /// Two rows of a table.
+    #[inline(always)]
+    fn two(table: &[[f32; 4]], i: u32, j: u32) -> F32x8 {
+        let (a, b) = (&table[i as usize], &table[j as usize]);
+        // SAFETY: both rows hold four numbers.
+        F32x8(avx!(_mm256_set_m128(_mm_loadu_ps(b.as_ptr()), _mm_loadu_ps(a.as_ptr()))))
     }
     /// Rows to columns, and back.
     #[inline(always)]
@@ -234,6 +242,28 @@ impl Real for F32x8 {
             let index = _mm256_min_epu32(index, _mm256_set1_epi32(last as i32));
             _mm256_i32gather_ps::<4>(table.as_ptr(), index)
         }))
+    }
+    #[inline(always)]
+    fn look_up_fours(self, table: &[[f32; 4]]) -> [F32x8; 4] {
+        let at = self.places(table.len());
+        F32x8::quarters([
+            F32x8::two(table, at[0], at[4]),
+            F32x8::two(table, at[1], at[5]),
+            F32x8::two(table, at[2], at[6]),
+            F32x8::two(table, at[3], at[7]),
+        ])
+    }
+    #[inline(always)]
+    fn places(self, len: usize) -> [u32; MAX_WIDTH] {
+        assert!(len > 0, "look_up in an empty table");
+        let (last, mut at) = (len.min(i32::MAX as usize) - 1, [0; MAX_WIDTH]);
+        // SAFETY: there is room for more than eight numbers.
+        avx!({
+            let index = _mm256_cvttps_epi32(_mm256_max_ps(self.0, _mm256_setzero_ps()));
+            let index = _mm256_min_epu32(index, _mm256_set1_epi32(last as i32));
+            _mm256_storeu_si256(at.as_mut_ptr().cast(), index);
+        });
+        at
     }
     #[inline(always)]
     fn sqrt(self) -> F32x8 {
