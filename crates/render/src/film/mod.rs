@@ -17,6 +17,8 @@
 //! being sums of positive terms they end alike in any order, and the variance is then infinite.
 //! Weights are rounded before they multiply, so the mean of a constant is that constant.
 //!
+//! A [`FilmTile`] adds up small values of weight ±1, as nearly all are, in two words of 64 bits; the sums are the same.
+//!
 //! Values that are not finite are refused and counted ([`Film::rejected`]); none ever enters a sum.
 
 mod error;

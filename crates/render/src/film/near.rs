@@ -20,15 +20,15 @@ impl Near {
     #[inline(always)]
     pub(super) fn add(&mut self, [r, g, b]: [f32; 3], weight: f32) -> bool {
         let small = r.abs() + g.abs() + b.abs() < PARTS_MAX as f32;
-        if !(small & (weight.abs() == 1.0) & (self.lower[3] < MOST)) {
+        if !(small & (weight.abs().to_bits() == 1f32.to_bits()) & (self.lower[3] < MOST)) {
             return false;
         }
         // A sign changes no digit of the products.
         let terms = [r * weight, g * weight, b * weight, weight].map(f64::from);
-        let parts = terms.map(parts);
-        for c in 0..4 {
-            self.upper[c] += parts[c][0];
-            self.lower[c] += parts[c][1];
+        let sums = self.upper.iter_mut().zip(&mut self.lower);
+        for ((upper, lower), [u, l]) in sums.zip(terms.map(parts)) {
+            *upper += u;
+            *lower += l;
         }
         self.lower[3] += 1;
         true

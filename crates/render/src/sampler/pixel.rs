@@ -188,13 +188,16 @@ impl<'a> Pixel<'a> {
     /// [`start`](Self::start) for each of `samples`, added to `out`.
     pub(crate) fn start_all(&self, samples: Range<u32>, out: &mut Vec<PixelSampler<'a>>) {
         let Pixel { sampler, morton, key, .. } = *self;
-        match sampler.plan {
+        if let Plan::ZOrder { log2_spp } = sampler.plan
+            && samples.end <= 1 << log2_spp
+        {
             // All are planned, and share the pixel's key.
-            Plan::ZOrder { log2_spp } if samples.end <= 1 << log2_spp => out.extend(samples.map(|sample| {
+            out.extend(samples.map(|sample| {
                 let index = u64::from(zorder::reversed_index(morton, sample, log2_spp));
                 PixelSampler { sampler, key, index, dimension: 0 }
-            })),
-            _ => out.extend(samples.map(|sample| self.start(sample))),
+            }));
+        } else {
+            out.extend(samples.map(|sample| self.start(sample)));
         }
     }
 }
