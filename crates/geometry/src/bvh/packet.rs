@@ -138,15 +138,14 @@ impl<S: Simd> Seen<S> {
         }
     }
     #[inline(always)]
-    fn wall(rays: &Packet<S>, axis: usize, f: &Wall) -> Seen<S> {
-        let [i, j] = [(axis + 1) % 3, (axis + 2) % 3];
-        let to = minus::<S>(load::<S>(&f.center), rays.o);
-        let (height, slope) = (to[axis], rays.d[axis]);
+    fn wall(rays: &Packet<S>, f: &Wall) -> Seen<S> {
+        let [o, d] = [rays.o, rays.d].map(|v| f.axes.map(|axis| v[axis]));
+        let [height, x, y] = minus::<S>(load::<S>(&f.center), o);
         Seen {
             height,
-            slope,
-            x: (height * rays.d[i] - slope * to[i]) * S::F8::load(&f.scales[0]),
-            y: (height * rays.d[j] - slope * to[j]) * S::F8::load(&f.scales[1]),
+            slope: d[0],
+            x: (height * d[1] - d[0] * x) * S::F8::load(&f.scales[0]),
+            y: (height * d[2] - d[0] * y) * S::F8::load(&f.scales[1]),
         }
     }
 }
@@ -381,11 +380,9 @@ pub(super) fn hit<S: Simd, const ANY: bool>(few: &Few, list: &[Ray; RAYS], other
         anew: none,
         open: rays.sane,
     };
-    for axis in 0..3 {
-        for f in &few.walls[axis] {
-            let seen = Seen::wall(&rays, axis, f);
-            nearest.face::<ANY, false>(&rays, &f.extent, seen, |v| [v[axis], v[axis].abs()]);
-        }
+    for f in &few.walls {
+        let seen = Seen::wall(&rays, f);
+        nearest.face::<ANY, false>(&rays, &f.extent, seen, |v| [v[f.axes[0]], v[f.axes[0]].abs()]);
     }
     for f in &few.squares {
         let seen = Seen::face(&rays, f);
