@@ -62,7 +62,18 @@ pub(crate) struct PointBlock {
     uv: [[f32; MAX_WIDTH]; 2],
 }
 
+/// The same vector in all places.
+fn all(v: Vec3<f32>) -> Vectors {
+    v.to_array().map(|x| [x; MAX_WIDTH])
+}
+
 impl PointBlock {
+    /// Writes all places but their points, with texture coordinates of their own and all else as at one point.
+    pub(crate) fn fill(&mut self, s: &SurfacePoint, uv: &[[f32; MAX_WIDTH]; 2]) {
+        (self.p_error, self.ng, self.ns) = (all(s.p_error), all(s.ng), all(s.ns));
+        (self.tangent, self.dpdu, self.dpdv) = (all(s.tangent), all(s.dpdu), all(s.dpdv));
+        self.uv = *uv;
+    }
     /// Writes a point to place `k`, which is taken modulo the number of places.
     #[inline(always)]
     pub(crate) fn put(&mut self, k: usize, s: &SurfacePoint, parts: SurfaceParts) {

@@ -5,6 +5,7 @@ use sparrow_math::{MAX_WIDTH, Vec3};
 use super::Geometry;
 use super::body::Body;
 use crate::columns::{PointBlock, SurfaceColumns, SurfaceParts};
+use crate::patch::Patches;
 use crate::point::SurfacePoint;
 use crate::quadric::{Met, Quadric};
 use crate::ray::{Hit, Ray};
@@ -52,20 +53,23 @@ impl Geometry {
     ) {
         let (mut block, mut met) = (PointBlock::default(), Met::default());
         for (n, which) in which.chunks(MAX_WIDTH).enumerate() {
-            match self.ball_of(hits, which).filter(|_| parts == SurfaceParts::default()) {
-                Some(ball) => {
-                    for (k, &i) in which.iter().enumerate() {
-                        let t = hits[i as usize].map_or(0.0, |hit| hit.t);
-                        met.set(k, &rays[i as usize], t);
-                    }
-                    ball.surface_many(&met, &mut block);
+            if let Some(ball) = self.ball_of(hits, which).filter(|_| parts == SurfaceParts::default()) {
+                for (k, &i) in which.iter().enumerate() {
+                    let t = hits[i as usize].map_or(0.0, |hit| hit.t);
+                    met.set(k, &rays[i as usize], t);
                 }
-                None => {
-                    self.ahead(hits, which);
-                    for (k, &i) in which.iter().enumerate() {
-                        if let Some(hit) = &hits[i as usize] {
-                            self.put(&rays[i as usize], hit, k, &mut block, parts);
-                        }
+                ball.surface_many(&met, &mut block);
+            } else if let Some((patches, prim)) = self.plain_of(hits, which) {
+                let mut uv = [[0.0; MAX_WIDTH]; 2];
+                for (k, &i) in which.iter().enumerate() {
+                    [uv[0][k], uv[1][k]] = hits[i as usize].map_or([0.0; 2], |hit| [hit.u, hit.v]);
+                }
+                patches.surface_many(prim, &uv, &mut block);
+            } else {
+                self.ahead(hits, which);
+                for (k, &i) in which.iter().enumerate() {
+                    if let Some(hit) = &hits[i as usize] {
+                        self.put(&rays[i as usize], hit, k, &mut block, parts);
                     }
                 }
             }
@@ -103,6 +107,15 @@ impl Geometry {
         let shape = on(which.first()?)?;
         let Some(Body::Quadric(Some(q))) = self.body(shape) else { return None };
         (q.is_ball() && which.iter().all(|i| on(i) == Some(shape))).then_some(q)
+    }
+
+    /// The parallelogram of the world on which all of these hits lie, and its number, if shading and textures say nothing of it.
+    #[inline]
+    fn plain_of(&self, hits: &[Option<Hit>], which: &[u32]) -> Option<(&Patches, u32)> {
+        let on = |i: &u32| hits[*i as usize].filter(|hit| hit.instance.is_none()).map(|h| (h.shape, h.prim));
+        let first @ (shape, prim) = on(which.first()?)?;
+        let Some(Body::Patches(m)) = self.body(shape) else { return None };
+        (which.iter().all(|i| on(i) == Some(first)) && m.is_plain(prim)).then_some((m, prim))
     }
 
     /// Derivatives of the shading normal by the texture coordinates at `hit`, which this geometry gave for `ray`.
