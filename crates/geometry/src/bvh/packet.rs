@@ -59,7 +59,7 @@ pub(super) struct Packet<S: Simd> {
     pub(super) t_max: S::F8,
     /// The square of the direction's length.
     d2: S::F8,
-    /// What products of the direction and unit vectors err by, times a quarter.
+    /// A quarter of what products of the direction and unit vectors err by.
     turn: S::F8,
     /// What distances from the origin may err by in a rounding: nothing lies further from it.
     near: S::F8,
@@ -209,7 +209,7 @@ impl<S: Simd> Nearest<S> {
         let aside = S::F8::splat(5.0 * ROUNDING) * terms + S::F8::splat(f.bent);
         let sided = aside.le(height.abs()) & (S::F8::splat(4.0) * rays.turn).lt(steep);
         let far = sum_abs::<S>(to) + S::F8::splat(f.across);
-        let dt = far * S::F8::splat(ROUNDING) * S::F8::load(&f.depth);
+        let dt = far * S::F8::splat(ROUNDING) * S::F8::load(&f.depth) + S::F8::splat(2.0 * f.bent);
         let t = height.signed(slope);
         let met = met & !(sided & t.le(zero)) & (t - dt).le(self.t[1] * steep);
         if ANY {
@@ -278,10 +278,10 @@ impl<S: Simd> Nearest<S> {
         // How far the ray's line passes from the centre, and the stretch of it within the ball; times the length of the direction.
         let off = cross::<S>(to, rays.d);
         let (off2, along) = (dot::<S>(off, off), dot::<S>(to, rays.d));
-        let err = S::F8::splat(8.0) * rays.near;
+        let err = S::F8::splat(16.0) * rays.near;
         let (outer, inner) = (S::F8::splat(radius) + err, S::F8::splat(0.99999 * radius) - err);
         let half = (outer * outer * rays.d2 - off2).sqrt();
-        let slack = S::F8::splat(8.0) * rays.slack;
+        let slack = S::F8::splat(16.0) * rays.slack;
         let ahead = (zero - slack).le(along + half) & (along - half).le(self.t[1] * rays.d2 + slack);
         let met = ahead & self.open;
         if !met.any() {
