@@ -115,12 +115,11 @@ fn of_a_turned_room() {
         let to_world = Transform::translate(vec3(away, -away, 0.5 * away)).then_first(&turn);
         let mut shapes = room();
         for s in &mut shapes {
-            match &mut s.shape {
-                Shape::Patches(m) => {
-                    m.p.iter_mut()
-                        .for_each(|p| *p = to_world.point(Vec3::from(*p).to_f64()).to_f32().to_array());
-                }
-                _ => s.to_world = to_world.then_first(&s.to_world),
+            if let Shape::Patches(m) = &mut s.shape {
+                let place = |p: [f32; 3]| to_world.point(Vec3::from(p).to_f64()).to_f32().to_array();
+                m.p.iter_mut().for_each(|p| *p = place(*p));
+            } else {
+                s.to_world = to_world.then_first(&s.to_world);
             }
         }
         let turned = |ray: Ray| Ray {
