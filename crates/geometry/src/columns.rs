@@ -1,6 +1,6 @@
 //! Surface points of many hits, in columns: [`SurfaceColumns`].
 
-use sparrow_math::{InLanes, MAX_WIDTH, Real, Vec3, in_lanes, vec3};
+use sparrow_math::{MAX_WIDTH, Vec3, vec3};
 
 use crate::point::SurfacePoint;
 
@@ -49,56 +49,47 @@ pub(crate) fn get(from: &Vectors, k: usize) -> Vec3<f32> {
     vec3(from[0][k], from[1][k], from[2][k])
 }
 
-/// Points of a ball side by side, on their way to the columns.
+/// Points side by side, on their way to the columns.
 #[derive(Default)]
 pub(crate) struct PointBlock {
     pub(crate) p: Vectors,
     pub(crate) p_error: Vectors,
-    /// Of the geometry and for shading.
-    pub(crate) n: Vectors,
+    pub(crate) ng: Vectors,
+    pub(crate) ns: Vectors,
     pub(crate) tangent: Vectors,
+    dpdu: Vectors,
+    dpdv: Vectors,
+    uv: [[f32; MAX_WIDTH]; 2],
 }
 
-/// Eight numbers of a point.
-pub(crate) type Row = [f32; 8];
-
-/// Points one after the other, on their way to the columns: what is known of one stands in a few rows, which lanes turn.
-#[derive(Default)]
-pub(crate) struct PointRows {
-    /// Place and texture coordinates.
-    places: [Row; MAX_WIDTH],
-    /// See [`normals`].
-    normals: [[Row; 2]; MAX_WIDTH],
-    /// Derivatives by both texture coordinates.
-    derivatives: [Row; MAX_WIDTH],
+/// The same vector in all places.
+fn all(v: Vec3<f32>) -> Vectors {
+    v.to_array().map(|x| [x; MAX_WIDTH])
 }
 
-/// Two vectors in a row.
-fn pair(a: Vec3<f32>, b: Vec3<f32>) -> Row {
-    [a.x, a.y, a.z, 0.0, b.x, b.y, b.z, 0.0]
-}
-
-/// Bound of the rounding error and geometric normal, shading normal and tangent.
-#[inline(always)]
-pub(crate) fn normals(p_error: Vec3<f32>, ng: Vec3<f32>, ns: Vec3<f32>, tangent: Vec3<f32>) -> [Row; 2] {
-    [pair(p_error, ng), pair(ns, tangent)]
-}
-
-impl PointRows {
+impl PointBlock {
+    /// Writes all places but their points, with texture coordinates of their own and all else as at one point.
+    pub(crate) fn fill(&mut self, s: &SurfacePoint, uv: &[[f32; MAX_WIDTH]; 2]) {
+        (self.p_error, self.ng, self.ns) = (all(s.p_error), all(s.ng), all(s.ns));
+        (self.tangent, self.dpdu, self.dpdv) = (all(s.tangent), all(s.dpdu), all(s.dpdv));
+        self.uv = *uv;
+    }
     /// Writes a point to place `k`, which is taken modulo the number of places.
     #[inline(always)]
     pub(crate) fn put(&mut self, k: usize, s: &SurfacePoint, parts: SurfaceParts) {
-        self.put_on(k, s.p, s.uv, &normals(s.p_error, s.ng, s.ns, s.tangent));
-        if parts.derivatives {
-            self.derivatives[k % MAX_WIDTH] = pair(s.dpdu, s.dpdv);
-        }
-    }
-    /// The same without derivatives, where normals and tangent are known.
-    #[inline(always)]
-    pub(crate) fn put_on(&mut self, k: usize, p: Vec3<f32>, [u, v]: [f32; 2], normals: &[Row; 2]) {
         let k = k % MAX_WIDTH;
-        self.places[k] = [p.x, p.y, p.z, u, v, 0.0, 0.0, 0.0];
-        self.normals[k] = *normals;
+        set(&mut self.p, k, s.p);
+        set(&mut self.p_error, k, s.p_error);
+        set(&mut self.ng, k, s.ng);
+        set(&mut self.ns, k, s.ns);
+        set(&mut self.tangent, k, s.tangent);
+        if parts.derivatives {
+            set(&mut self.dpdu, k, s.dpdu);
+            set(&mut self.dpdv, k, s.dpdv);
+        }
+        if parts.uv {
+            [self.uv[0][k], self.uv[1][k]] = s.uv;
+        }
     }
 }
 
@@ -111,64 +102,19 @@ fn copy<const N: usize>(to: &mut [&mut [f32]; N], first: usize, from: &[[f32; MA
 }
 
 impl SurfaceColumns<'_> {
-    /// Writes points of a ball to places from `first` on.
-    pub(crate) fn write(&mut self, first: usize, block: &PointBlock) {
+    /// Writes a block to places from `first` on.
+    pub(crate) fn write(&mut self, first: usize, block: &PointBlock, parts: SurfaceParts) {
         copy(&mut self.p, first, &block.p);
         copy(&mut self.p_error, first, &block.p_error);
-        copy(&mut self.ng, first, &block.n);
-        copy(&mut self.ns, first, &block.n);
+        copy(&mut self.ng, first, &block.ng);
+        copy(&mut self.ns, first, &block.ns);
         copy(&mut self.tangent, first, &block.tangent);
-    }
-    /// Writes points to places from `first` on.
-    pub(crate) fn turn(&mut self, first: usize, rows: &PointRows, parts: SurfaceParts) {
-        in_lanes(Turn { rows, parts, first, to: self });
-    }
-}
-
-/// The places of lanes among themselves.
-const LANES: [u32; MAX_WIDTH] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15];
-
-struct Turn<'a, 'b> {
-    rows: &'a PointRows,
-    parts: SurfaceParts,
-    first: usize,
-    to: &'a mut SurfaceColumns<'b>,
-}
-
-impl InLanes for Turn<'_, '_> {
-    type Output = ();
-    #[inline(always)]
-    fn run<R: Real>(self) {
-        let Turn { rows, parts, first, to } = self;
-        let normals = rows.normals.as_flattened();
-        for k in (0..MAX_WIDTH).step_by(R::WIDTH) {
-            let at = first + k;
-            let [x, y, z, u, v, ..] = R::gather_rows(&rows.places[k..], &LANES);
-            store([x, y, z], &mut to.p, at);
-            let [x, y, z, _, nx, ny, nz, _] = R::gather_rows(&normals[2 * k..], &EVERY_OTHER);
-            store([x, y, z], &mut to.p_error, at);
-            store([nx, ny, nz], &mut to.ng, at);
-            let [nx, ny, nz, _, x, y, z, _] = R::gather_rows(&normals[2 * k + 1..], &EVERY_OTHER);
-            store([nx, ny, nz], &mut to.ns, at);
-            store([x, y, z], &mut to.tangent, at);
-            if parts.uv {
-                store([u, v], &mut to.uv, at);
-            }
-            if parts.derivatives {
-                let [x, y, z, _, a, b, c, _] = R::gather_rows(&rows.derivatives[k..], &LANES);
-                store([x, y, z], &mut to.dpdu, at);
-                store([a, b, c], &mut to.dpdv, at);
-            }
+        if parts.derivatives {
+            copy(&mut self.dpdu, first, &block.dpdu);
+            copy(&mut self.dpdv, first, &block.dpdv);
         }
-    }
-}
-
-/// Numbers of the first rows of points that have two.
-const EVERY_OTHER: [u32; MAX_WIDTH] = [0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30];
-
-#[inline(always)]
-fn store<R: Real, const N: usize>(v: [R; N], to: &mut [&mut [f32]; N], at: usize) {
-    for (v, to) in v.into_iter().zip(to) {
-        v.store(to, at);
+        if parts.uv {
+            copy(&mut self.uv, first, &block.uv);
+        }
     }
 }

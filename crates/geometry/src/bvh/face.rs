@@ -1,6 +1,6 @@
 //! Parallelograms and triangles in numbers that tell quickly which rays miss them: [`Face`] and [`Wall`].
 
-use sparrow_math::Vec3;
+use sparrow_math::{Vec3, vec3};
 
 use super::packet::RAYS;
 
@@ -50,8 +50,11 @@ pub(crate) struct Face {
 #[derive(Clone, Debug)]
 pub(crate) struct Wall {
     pub(crate) extent: Extent,
+    /// The axis of the normal, and those of the first and the second coordinate.
+    pub(crate) axes: [usize; 3],
+    /// The centre, along these.
     pub(crate) center: RepeatedVector,
-    /// Coordinates of steps along the axes that follow that of the normal.
+    /// Coordinates of steps along the last two.
     pub(crate) scales: [Repeated; 2],
 }
 
@@ -77,8 +80,8 @@ impl Frame {
         // corners there by two of the second.
         let steep = [2.0 * f.length() / area, 2.0 * e.length() / area];
         let margins = steep.map(|s| [(64.0 * s + 8.0 * wide / across) as f32; RAYS]);
-        // That of the corners moves distances by 24; products move weights of corners, and these distances, by less than the other.
-        let depth = 32.0 + 24.0 * wide;
+        // That of the corners and of sums moves distances by 19; products move weights of corners, and these distances, by less than the other.
+        let depth = 24.0 + 12.0 * wide;
         let (plane, middle) = (normal.to_f32().to_f64(), center.to_f32().to_f64());
         let bent = corners.iter().map(|&c| plane.dot(c - middle).abs()).fold(0.0, f64::max) * 1.001;
         let extent = Extent {
@@ -103,15 +106,18 @@ impl Frame {
             of_direction: steps.map(|step| repeated(self.center.cross(step))),
         }
     }
-    /// The axis of the normal, and the wall that this is, if it is one whose sides are those along the axis next to that one and the last.
-    pub(super) fn wall(&self) -> Option<(usize, Wall)> {
+    /// The wall that this is, if it is one.
+    pub(super) fn wall(&self) -> Option<Wall> {
         let [e, f] = self.sides;
-        let along = |k: &usize| {
-            let [i, j] = [(k + 1) % 3, (k + 2) % 3];
-            e[*k] == 0.0 && f[*k] == 0.0 && e[j] == 0.0 && f[i] == 0.0
-        };
-        let axis = (0..3).find(along)?;
-        let scales = [2.0 / e[(axis + 1) % 3], 2.0 / f[(axis + 2) % 3]].map(|s| [s as f32; RAYS]);
-        Some((axis, Wall { extent: self.extent.clone(), center: repeated(self.center), scales }))
+        let along = |[k, i, j]: &[usize; 3]| e[*k] == 0.0 && f[*k] == 0.0 && e[*j] == 0.0 && f[*i] == 0.0;
+        let ways = [[0, 1, 2], [1, 2, 0], [2, 0, 1], [0, 2, 1], [1, 0, 2], [2, 1, 0]];
+        let axes @ [k, i, j] = ways.into_iter().find(along)?;
+        let center = vec3(self.center[k], self.center[i], self.center[j]);
+        Some(Wall {
+            extent: self.extent.clone(),
+            axes,
+            center: repeated(center),
+            scales: [2.0 / e[i], 2.0 / f[j]].map(|s| [s as f32; RAYS]),
+        })
     }
 }

@@ -34,8 +34,8 @@ fn rows(owner: Owner, [a, b, c]: [[f32; 3]; 3]) -> Rows {
 /// The leaves of a tree of one node.
 #[derive(Clone, Debug)]
 pub(crate) struct Few {
-    /// Pairs of triangles that are rectangles along the axes, by the axis of their normals.
-    pub(crate) walls: [Vec<Wall>; 3],
+    /// Pairs of triangles that are rectangles along the axes.
+    pub(crate) walls: Vec<Wall>,
     /// Other pairs that are parallelograms.
     pub(crate) squares: Vec<Face>,
     /// The other triangles.
@@ -106,8 +106,8 @@ impl Few {
         let corners = alone.iter().flat_map(|t| t.exact()).map(Vec3::length);
         let mut radius = corners.fold(0.0, f64::max);
         let mut all = Vec::new();
-        let (mut squares, mut triangles, mut others) = (Vec::new(), Vec::new(), Vec::new());
-        let mut walls = [Vec::new(), Vec::new(), Vec::new()];
+        let (mut walls, mut squares, mut triangles, mut others) =
+            (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         while let Some(one) = alone.pop() {
             let place = all.len() as u32;
             let half = |(i, other)| Some((i, one.square_with(other)?));
@@ -117,17 +117,12 @@ impl Few {
                 continue;
             };
             let other = alone.remove(i);
-            let frame = |[q, r]: [Vec3<f64>; 2]| Frame::new([p, q, r], &[p, q, r, across], place);
-            // The half with the first of the two corners comes first.
-            let (ways, mut halves) = ([frame([q, r])?, frame([r, q])?], [one, other]);
-            match ways.iter().enumerate().find_map(|(n, frame)| Some((n, frame.wall()?))) {
-                Some((n, (axis, wall))) => {
-                    walls[axis].push(wall);
-                    halves.rotate_left(n);
-                }
-                None => squares.extend(ways.into_iter().take(1).map(Frame::face)),
+            let frame = Frame::new([p, q, r], &[p, q, r, across], place)?;
+            match frame.wall() {
+                Some(wall) => walls.push(wall),
+                None => squares.push(frame.face()),
             }
-            all.extend(halves.map(|t| rows(owner(t.id), t.corners)));
+            all.extend([one, other].map(|t| rows(owner(t.id), t.corners)));
         }
         for (i, child) in node.child.iter().enumerate().filter(|(_, c)| c.is_leaf() && c.is_others()) {
             let Some(bounds) = node.bounds_of(i) else { continue };

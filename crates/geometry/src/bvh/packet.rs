@@ -59,7 +59,7 @@ pub(super) struct Packet<S: Simd> {
     pub(super) t_max: S::F8,
     /// The square of the direction's length.
     d2: S::F8,
-    /// What products of the direction and unit vectors err by, times a quarter.
+    /// A quarter of what products of the direction and unit vectors err by.
     turn: S::F8,
     /// What distances from the origin may err by in a rounding: nothing lies further from it.
     near: S::F8,
@@ -138,15 +138,14 @@ impl<S: Simd> Seen<S> {
         }
     }
     #[inline(always)]
-    fn wall(rays: &Packet<S>, axis: usize, f: &Wall) -> Seen<S> {
-        let [i, j] = [(axis + 1) % 3, (axis + 2) % 3];
-        let to = minus::<S>(load::<S>(&f.center), rays.o);
-        let (height, slope) = (to[axis], rays.d[axis]);
+    fn wall(rays: &Packet<S>, f: &Wall) -> Seen<S> {
+        let [o, d] = [rays.o, rays.d].map(|v| f.axes.map(|axis| v[axis]));
+        let [height, x, y] = minus::<S>(load::<S>(&f.center), o);
         Seen {
             height,
-            slope,
-            x: (height * rays.d[i] - slope * to[i]) * S::F8::load(&f.scales[0]),
-            y: (height * rays.d[j] - slope * to[j]) * S::F8::load(&f.scales[1]),
+            slope: d[0],
+            x: (height * d[1] - d[0] * x) * S::F8::load(&f.scales[0]),
+            y: (height * d[2] - d[0] * y) * S::F8::load(&f.scales[1]),
         }
     }
 }
@@ -210,7 +209,7 @@ impl<S: Simd> Nearest<S> {
         let aside = S::F8::splat(5.0 * ROUNDING) * terms + S::F8::splat(f.bent);
         let sided = aside.le(height.abs()) & (S::F8::splat(4.0) * rays.turn).lt(steep);
         let far = sum_abs::<S>(to) + S::F8::splat(f.across);
-        let dt = far * S::F8::splat(ROUNDING) * S::F8::load(&f.depth);
+        let dt = far * S::F8::splat(ROUNDING) * S::F8::load(&f.depth) + S::F8::splat(2.0 * f.bent);
         let t = height.signed(slope);
         let met = met & !(sided & t.le(zero)) & (t - dt).le(self.t[1] * steep);
         if ANY {
@@ -279,10 +278,10 @@ impl<S: Simd> Nearest<S> {
         // How far the ray's line passes from the centre, and the stretch of it within the ball; times the length of the direction.
         let off = cross::<S>(to, rays.d);
         let (off2, along) = (dot::<S>(off, off), dot::<S>(to, rays.d));
-        let err = S::F8::splat(8.0) * rays.near;
+        let err = S::F8::splat(16.0) * rays.near;
         let (outer, inner) = (S::F8::splat(radius) + err, S::F8::splat(0.99999 * radius) - err);
         let half = (outer * outer * rays.d2 - off2).sqrt();
-        let slack = S::F8::splat(8.0) * rays.slack;
+        let slack = S::F8::splat(16.0) * rays.slack;
         let ahead = (zero - slack).le(along + half) & (along - half).le(self.t[1] * rays.d2 + slack);
         let met = ahead & self.open;
         if !met.any() {
@@ -381,11 +380,9 @@ pub(super) fn hit<S: Simd, const ANY: bool>(few: &Few, list: &[Ray; RAYS], other
         anew: none,
         open: rays.sane,
     };
-    for axis in 0..3 {
-        for f in &few.walls[axis] {
-            let seen = Seen::wall(&rays, axis, f);
-            nearest.face::<ANY, false>(&rays, &f.extent, seen, |v| [v[axis], v[axis].abs()]);
-        }
+    for f in &few.walls {
+        let seen = Seen::wall(&rays, f);
+        nearest.face::<ANY, false>(&rays, &f.extent, seen, |v| [v[f.axes[0]], v[f.axes[0]].abs()]);
     }
     for f in &few.squares {
         let seen = Seen::face(&rays, f);

@@ -84,10 +84,12 @@ impl Kernel for Operations {
         let none = <S::F8 as Floats<8>>::Mask::none();
         let (le, lt) = (a.le(b), a.lt(b));
         let chosen = [a.only_where(!lt, b), a.sqrt(), a.signed(b)];
+        let rows = S::rows([a, b, a.abs(), b.abs()]).into_iter().flatten().map(f32::to_bits);
         let numbers = both.into_iter().chain(some).chain(chosen).flat_map(|x| x.to_array().map(f32::to_bits));
         let signs = [a.min_nonneg(b), a.max_nonneg(b)];
         let signs = signs.into_iter().flat_map(|x| x.to_array().map(|x| u32::from(x > 0.0)));
         numbers
+            .chain(rows)
             .chain(signs)
             .chain([le, lt, b.le(a), a.le(a), none, le & !lt, lt | !le, !lt].map(Mask::bits))
             .collect()
@@ -114,6 +116,8 @@ fn one_by_one(a: [f32; 8], b: [f32; 8]) -> Vec<u32> {
     out.extend([0, 1, 2, 3, 4, 5, 6, 7].map(|i| chosen(i).to_bits()));
     out.extend(each(&|a, _| a.sqrt()));
     out.extend(each(&|a, b| if b.is_sign_negative() { -a } else { a }));
+    let row = |i: usize| [a[i], b[i], a[i].abs(), b[i].abs()].map(f32::to_bits);
+    out.extend([0, 4, 1, 5, 2, 6, 3, 7].into_iter().flat_map(row));
     out.extend([0, 1, 2, 3, 4, 5, 6, 7].map(|i| u32::from(min(a[i], b[i]) > 0.0)));
     out.extend([0, 1, 2, 3, 4, 5, 6, 7].map(|i| u32::from(max(a[i], b[i]) > 0.0)));
     let (le, lt) = (bits(&|a, b| a <= b), bits(&|a, b| a < b));

@@ -4,7 +4,8 @@ use sparrow_math::{MAX_WIDTH, Vec3};
 
 use super::Geometry;
 use super::body::Body;
-use crate::columns::{PointBlock, PointRows, SurfaceColumns, SurfaceParts};
+use crate::columns::{PointBlock, SurfaceColumns, SurfaceParts};
+use crate::patch::Patches;
 use crate::point::SurfacePoint;
 use crate::quadric::{Met, Quadric};
 use crate::ray::{Hit, Ray};
@@ -50,27 +51,29 @@ impl Geometry {
         parts: SurfaceParts,
         out: &mut SurfaceColumns<'_>,
     ) {
-        let (mut rows, mut block, mut met) = (PointRows::default(), PointBlock::default(), Met::default());
+        let (mut block, mut met) = (PointBlock::default(), Met::default());
         for (n, which) in which.chunks(MAX_WIDTH).enumerate() {
-            match self.ball_of(hits, which).filter(|_| parts == SurfaceParts::default()) {
-                Some(ball) => {
-                    for (k, &i) in which.iter().enumerate() {
-                        let t = hits[i as usize].map_or(0.0, |hit| hit.t);
-                        met.set(k, &rays[i as usize], t);
-                    }
-                    ball.surface_many(&met, &mut block);
-                    out.write(n * MAX_WIDTH, &block);
+            if let Some(ball) = self.ball_of(hits, which).filter(|_| parts == SurfaceParts::default()) {
+                for (k, &i) in which.iter().enumerate() {
+                    let t = hits[i as usize].map_or(0.0, |hit| hit.t);
+                    met.set(k, &rays[i as usize], t);
                 }
-                None => {
-                    self.ahead(hits, which);
-                    for (k, &i) in which.iter().enumerate() {
-                        if let Some(hit) = &hits[i as usize] {
-                            self.put(&rays[i as usize], hit, k, &mut rows, parts);
-                        }
+                ball.surface_many(&met, &mut block);
+            } else if let Some((patches, prim)) = self.plain_of(hits, which) {
+                let mut uv = [[0.0; MAX_WIDTH]; 2];
+                for (k, &i) in which.iter().enumerate() {
+                    [uv[0][k], uv[1][k]] = hits[i as usize].map_or([0.0; 2], |hit| [hit.u, hit.v]);
+                }
+                patches.surface_many(prim, &uv, &mut block);
+            } else {
+                self.ahead(hits, which);
+                for (k, &i) in which.iter().enumerate() {
+                    if let Some(hit) = &hits[i as usize] {
+                        self.put(&rays[i as usize], hit, k, &mut block, parts);
                     }
-                    out.turn(n * MAX_WIDTH, &rows, parts);
                 }
             }
+            out.write(n * MAX_WIDTH, &block, parts);
         }
     }
     /// Asks for what the surface at these hits will read, where the first of them lies on a mesh.
@@ -88,13 +91,13 @@ impl Geometry {
         met().for_each(|(m, prim)| m.indices_ahead(prim));
         met().for_each(|(m, prim)| m.corners_ahead(prim));
     }
-    /// The surface at a hit, to place `k` of rows.
+    /// The surface at a hit, to place `k` of a block.
     #[inline(always)]
-    fn put(&self, ray: &Ray, hit: &Hit, k: usize, rows: &mut PointRows, parts: SurfaceParts) {
+    fn put(&self, ray: &Ray, hit: &Hit, k: usize, block: &mut PointBlock, parts: SurfaceParts) {
         match (hit.instance, &self.bodies.bodies[hit.shape as usize]) {
-            (None, Body::Patches(m)) => m.put(hit, k, rows, parts),
-            (None, Body::Triangles(m)) => rows.put(k, &m.surface(hit), parts),
-            _ => rows.put(k, &self.surface(ray, hit), parts),
+            (None, Body::Patches(m)) => m.put(hit, k, block, parts),
+            (None, Body::Triangles(m)) => block.put(k, &m.surface(hit), parts),
+            _ => block.put(k, &self.surface(ray, hit), parts),
         }
     }
     /// The whole ball of the world on which all of these hits lie.
@@ -104,6 +107,15 @@ impl Geometry {
         let shape = on(which.first()?)?;
         let Some(Body::Quadric(Some(q))) = self.body(shape) else { return None };
         (q.is_ball() && which.iter().all(|i| on(i) == Some(shape))).then_some(q)
+    }
+
+    /// The parallelogram of the world on which all of these hits lie, and its number, if shading and textures say nothing of it.
+    #[inline]
+    fn plain_of(&self, hits: &[Option<Hit>], which: &[u32]) -> Option<(&Patches, u32)> {
+        let on = |i: &u32| hits[*i as usize].filter(|hit| hit.instance.is_none()).map(|h| (h.shape, h.prim));
+        let first @ (shape, prim) = on(which.first()?)?;
+        let Some(Body::Patches(m)) = self.body(shape) else { return None };
+        (which.iter().all(|i| on(i) == Some(first)) && m.is_plain(prim)).then_some((m, prim))
     }
 
     /// Derivatives of the shading normal by the texture coordinates at `hit`, which this geometry gave for `ray`.

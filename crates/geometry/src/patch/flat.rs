@@ -4,7 +4,6 @@ use sparrow_math::Vec3;
 
 use super::Bilinear;
 use crate::bvh::gamma;
-use crate::columns::{PointRows, Row, SurfaceParts, normals};
 use crate::point::SurfacePoint;
 use crate::ray::Hit;
 use crate::sample::{Edges, Rectangle};
@@ -20,8 +19,6 @@ pub(super) struct Flat {
     pub(super) derivatives: [Vec3<f32>; 2],
     /// Bound of the rounding error of a point.
     pub(super) p_error: Vec3<f32>,
-    /// That bound, the normal and the first derivative as columns take them.
-    rows: [Row; 2],
     /// The same for directions drawn to it, if its angles are right ones.
     pub(super) rectangle: Option<Rectangle>,
 }
@@ -40,15 +37,12 @@ impl Flat {
         let corner = (a + b + c + d) * 0.25 - (e + f) * 0.5;
         let edges = Edges::new(corner, e, f);
         let n = Bilinear::new(p).normal(0.5, 0.5);
-        let n = if flip { -n } else { n }.to_f32();
-        let derivatives = [0, 1].map(|i: usize| (edges.axes[i] * edges.lengths[i]).to_f32());
         Flat {
             edges,
             area: edges.area(),
-            n,
-            derivatives,
+            n: if flip { -n } else { n }.to_f32(),
+            derivatives: [0, 1].map(|i: usize| (edges.axes[i] * edges.lengths[i]).to_f32()),
             p_error: p_error(p),
-            rows: normals(p_error(p), n, n, derivatives[0]),
             rectangle: (e.dot(f).abs() <= 1e-5 * e.length() * f.length()).then(|| Rectangle::new(&edges)),
         }
     }
@@ -69,15 +63,6 @@ impl Flat {
     #[inline(always)]
     pub(super) fn p_error_of_samples(&self) -> Vec3<f32> {
         self.p_error * 4.0
-    }
-    /// The surface at a hit, where the mesh says nothing of shading and textures, to place `k` of rows.
-    #[inline(always)]
-    pub(super) fn put(&self, hit: &Hit, k: usize, rows: &mut PointRows, parts: SurfaceParts) {
-        if parts.derivatives {
-            rows.put(k, &self.surface(hit), parts);
-        } else {
-            rows.put_on(k, self.at(hit.u, hit.v), [hit.u, hit.v], &self.rows);
-        }
     }
     /// The surface at a hit, where the mesh says nothing of shading and textures.
     #[inline(always)]

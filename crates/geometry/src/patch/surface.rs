@@ -1,10 +1,10 @@
 //! What is known of points of a patch.
 
-use sparrow_math::{Vec3, vec3};
+use sparrow_math::{InLanes, MAX_WIDTH, Real, Vec3, in_lanes, vec3};
 
 use super::flat::p_error;
 use super::{Bilinear, Flat, Kind, Patches};
-use crate::columns::{PointRows, SurfaceParts};
+use crate::columns::{PointBlock, SurfaceParts, Vectors, set};
 use crate::point::SurfacePoint;
 use crate::ray::Hit;
 
@@ -36,6 +36,23 @@ pub(super) struct Place {
     /// Derivatives by the patch's own parameters.
     pub(super) du: Vec3<f32>,
     pub(super) dv: Vec3<f32>,
+}
+
+/// Points of a parallelogram, in a loop that the compiler fills lanes with.
+struct Points<'a> {
+    flat: &'a Flat,
+    uv: &'a [[f32; MAX_WIDTH]; 2],
+    p: &'a mut Vectors,
+}
+
+impl InLanes for Points<'_> {
+    type Output = ();
+    #[inline(always)]
+    fn run<R: Real>(self) {
+        for k in 0..MAX_WIDTH {
+            set(self.p, k, self.flat.at(self.uv[0][k], self.uv[1][k]));
+        }
+    }
 }
 
 impl Patches {
@@ -120,12 +137,24 @@ impl Patches {
             None => self.surface_of_any(hit),
         }
     }
-    /// The same, to place `k` of rows.
+    /// The same, to place `k` of a block.
     #[inline(always)]
-    pub(crate) fn put(&self, hit: &Hit, k: usize, rows: &mut PointRows, parts: SurfaceParts) {
+    pub(crate) fn put(&self, hit: &Hit, k: usize, block: &mut PointBlock, parts: SurfaceParts) {
         match self.plain(hit.prim) {
-            Some(flat) => flat.put(hit, k, rows, parts),
-            None => rows.put(k, &self.surface_of_any(hit), parts),
+            Some(flat) => block.put(k, &flat.surface(hit), parts),
+            None => block.put(k, &self.surface_of_any(hit), parts),
+        }
+    }
+    /// A patch is a parallelogram of whose points shading and textures say nothing.
+    #[inline(always)]
+    pub(crate) fn is_plain(&self, prim: u32) -> bool {
+        self.plain(prim).is_some()
+    }
+    /// The surface at points of such a patch, given its parameters; nothing on others.
+    pub(crate) fn surface_many(&self, prim: u32, uv: &[[f32; MAX_WIDTH]; 2], block: &mut PointBlock) {
+        if let Some(flat) = self.plain(prim) {
+            block.fill(&flat.surface(&Hit { t: 0.0, shape: 0, prim, u: 0.0, v: 0.0, instance: None }), uv);
+            in_lanes(Points { flat, uv, p: &mut block.p });
         }
     }
     fn surface_of_any(&self, hit: &Hit) -> SurfacePoint {

@@ -43,7 +43,7 @@ impl InLanes for Work<'_> {
             let (p, n) = quadric.on_ball(ball, out);
             set(&mut block.p, k, p.to_f32());
             set(&mut block.p_error, k, p_error(p));
-            set(&mut block.n, k, n.to_f32());
+            set(&mut block.ng, k, n.to_f32());
             set(&mut block.tangent, k, quadric.around_ball(ball, out).to_f32());
         }
     }
@@ -63,6 +63,7 @@ impl Quadric {
     pub(crate) fn surface_many(&self, met: &Met, block: &mut PointBlock) {
         if let Some(ball) = &self.ball {
             in_lanes(Work { quadric: self, ball, met, block });
+            block.ns = block.ng;
         }
     }
 }

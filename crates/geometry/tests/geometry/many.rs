@@ -106,6 +106,32 @@ fn of_a_small_room() {
     compare("room", &Geometry::build(room()), &rays);
 }
 
+/// Nothing lies along the axes, and all of it far from the origin.
+#[test]
+fn of_a_turned_room() {
+    let turn = Transform::rotate(40.0, vec3(1.0, 2.0, -0.5)).unwrap();
+    let mut rng = Rng(36);
+    for away in [0.0, 3.0, 200.0] {
+        let to_world = Transform::translate(vec3(away, -away, 0.5 * away)).then_first(&turn);
+        let mut shapes = room();
+        for s in &mut shapes {
+            if let Shape::Patches(m) = &mut s.shape {
+                let place = |p: [f32; 3]| to_world.point(Vec3::from(p).to_f64()).to_f32().to_array();
+                m.p.iter_mut().for_each(|p| *p = place(*p));
+            } else {
+                s.to_world = to_world.then_first(&s.to_world);
+            }
+        }
+        let turned = |ray: Ray| Ray {
+            o: to_world.point(ray.o.to_f64()).to_f32(),
+            d: to_world.vector(ray.d.to_f64()).to_f32(),
+            ..ray
+        };
+        let rays: Vec<Ray> = rays(&mut rng, 20_000).into_iter().map(turned).collect();
+        compare("turned", &Geometry::build(shapes), &rays);
+    }
+}
+
 /// A few triangles, patches and quadrics, so that some trees have one node and others more.
 #[test]
 fn of_few_shapes() {
