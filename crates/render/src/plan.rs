@@ -55,6 +55,11 @@ impl FilmSensor {
         self.carrier.wavelengths(u)
     }
 
+    /// Wavelengths depend on the uniform number.
+    pub(crate) fn draws_wavelengths(&self) -> bool {
+        self.carrier.space().is_none()
+    }
+
     /// [`wavelengths`](Self::wavelengths) of each of the first `n` of `u`: in nm, and their densities. The columns are as long as `n`,
     /// rounded up to whole registers.
     pub(crate) fn wavelengths_many(

@@ -48,7 +48,7 @@ impl<'a> Fresh<'a> {
     ) -> bool {
         self.start(sampler, plan, samples, most.min(BATCH));
         let (n, columns) = (self.places.len(), &mut *self.columns);
-        columns.fill(sampler, &self.samplers, scene);
+        columns.fill(sampler, &self.samplers, (scene, plan));
         let (nm, pdf) =
             (columns.nm.each_mut().map(|c| &mut c[..]), columns.pdf.each_mut().map(|c| &mut c[..]));
         plan.sensor.wavelengths_many(&columns.wavelength[..], n, nm, pdf);
@@ -122,12 +122,13 @@ impl<'a> Fresh<'a> {
 
 impl Columns {
     /// Draws what the scene needs.
-    fn fill(&mut self, sampler: &Sampler, paths: &[PixelSampler<'_>], scene: &Scene) {
+    fn fill(&mut self, sampler: &Sampler, paths: &[PixelSampler<'_>], (scene, plan): (&Scene, &RenderPlan)) {
         let [wavelength, time, lens] = CameraNumbers::DIMENSIONS;
         let n = paths.len();
         let at = |k: usize| paths[k];
         let pixel = Draw::Pixel(self.pixel.each_mut().map(|c| &mut c[..]));
-        sampler.fill(n, at, &mut [Draw::One(wavelength, &mut self.wavelength[..]), pixel]);
+        let draws = &mut [Draw::One(wavelength, &mut self.wavelength[..]), pixel];
+        sampler.fill(n, at, if plan.sensor.draws_wavelengths() { draws } else { &mut draws[1..] });
         if scene.moves {
             sampler.fill(n, at, &mut [Draw::One(time, &mut self.time[..])]);
         } else {
