@@ -248,6 +248,19 @@ fn bits(s: &ShapeSample) -> Vec<u32> {
     vectors.chain([s.distance, s.pdf]).map(f32::to_bits).collect()
 }
 
+/// Lanes tell the densities that are told one by one: seen from points with normals, of points with normals.
+fn assert_same_densities(g: &Geometry, from: [[&[f32]; 3]; 2], on: [[&[f32]; 3]; 2], n: usize) {
+    let mut pdf = [0.0; 32];
+    let mut columns = PdfColumns { from: from[0], n: from[1], p: on[0], pdf: &mut pdf };
+    assert!(g.pdf_from_many(0, 0, &mut columns, n));
+    let vector = |c: [&[f32]; 3], k: usize| vec3(c[0][k], c[1][k], c[2][k]);
+    for (k, many) in pdf[..n].iter().enumerate() {
+        let viewpoint = Viewpoint { p: vector(from[0], k), n: Some(vector(from[1], k)) };
+        let one = g.pdf_from(0, 0, viewpoint, vector(on[0], k), vector(on[1], k));
+        assert_eq!(many.to_bits(), one.to_bits(), "from {viewpoint:?}: {many}, {one}");
+    }
+}
+
 /// Rectangles, with and without normals, and balls, seen from afar, from close by, from their plane and from inside: lanes draw
 /// what is drawn one by one.
 #[test]
@@ -295,19 +308,8 @@ fn lanes_draw_what_is_drawn_one_by_one() {
             };
             let p_error = g.sample_from_many(0, 0, &mut columns, N).expect("there are lanes");
             let vector = |c: &[&mut [f32]; 3], k: usize| vec3(c[0][k], c[1][k], c[2][k]);
-            let mut again = [0.0; 32];
-            let mut densities = PdfColumns {
-                from: at.each_ref().map(|c| &c[..]),
-                n: n.each_ref().map(|c| &c[..]),
-                p: columns.p.each_ref().map(|c| &**c),
-                pdf: &mut again,
-            };
-            assert!(g.pdf_from_many(0, 0, &mut densities, N));
-            for k in 0..N {
-                let (from, n) = (Viewpoint { p: from[k], n: Some(normals[k]) }, vector(&columns.on, k));
-                let pdf = g.pdf_from(0, 0, from, vector(&columns.p, k), n);
-                assert_eq!(again[k].to_bits(), pdf.to_bits(), "shape {i} from {from:?}: {}, {pdf}", again[k]);
-            }
+            let drawn = [&columns.p, &columns.on].map(|v| v.each_ref().map(|c| &**c));
+            assert_same_densities(&g, [&at, &n].map(|v| v.each_ref().map(|c| &c[..])), drawn, N);
             for k in 0..N {
                 let one = g.sample_from(0, 0, Viewpoint { p: from[k], n: Some(normals[k]) }, u[k]);
                 let pdf = columns.pdf[k];
