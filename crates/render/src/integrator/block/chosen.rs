@@ -62,12 +62,11 @@ impl Chosen {
 
     /// Samples the light at those vertices. Returns the errors of the points on it, and 1 where they lie nowhere, else 0.
     pub(super) fn sample(&mut self, scene: &Scene, light: u32, which: &[u32]) -> ([f32; 3], f32) {
-        let (n, one) = (which.len(), &mut *self.one);
+        let (n, n_padded, one) = (which.len(), padded(which.len()), &mut *self.one);
         self.which.clear();
         self.which.extend_from_slice(which);
-        self.which.resize(padded(n), which.last().copied().unwrap_or(0));
+        self.which.resize(n_padded, which.last().copied().unwrap_or(0));
         in_lanes(Bring { which: &self.which, rows: &self.from, one });
-        let n_padded = padded(n);
         let columns = &mut columns_of(
             n_padded,
             (&one.p, &one.n, &one.u),

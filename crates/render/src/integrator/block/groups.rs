@@ -1,32 +1,38 @@
 //! What has the same key put together: [`Groups`].
 
-/// Numbers put together by their key.
+/// Numbers put together by their key, of which there may be many more than have numbers at a time.
 #[derive(Default)]
 pub(super) struct Groups {
-    of_key: Vec<Vec<u32>>,
-    /// Those that have numbers.
+    /// For each key the place of its group and one, or zero.
+    place: Vec<u32>,
+    /// Those that have numbers; each has the group in its place.
     keys: Vec<u32>,
+    groups: Vec<Vec<u32>>,
 }
 
 impl Groups {
     /// Forgets all numbers; keys are below `n_keys`.
     pub(super) fn clear(&mut self, n_keys: usize) {
-        self.keys.drain(..).for_each(|key| self.of_key[key as usize].clear());
-        self.of_key.resize_with(n_keys.max(self.of_key.len()), Vec::new);
+        for (key, group) in self.keys.drain(..).zip(&mut self.groups) {
+            self.place[key as usize] = 0;
+            group.clear();
+        }
+        self.place.resize(n_keys.max(self.place.len()), 0);
     }
     /// One more number.
     #[inline(always)]
     pub(super) fn push(&mut self, key: u32, i: u32) {
-        let group = &mut self.of_key[key as usize];
-        if group.is_empty() {
+        let place = &mut self.place[key as usize];
+        if *place == 0 {
             self.keys.push(key);
+            *place = self.keys.len() as u32;
+            self.groups.resize_with(self.groups.len().max(self.keys.len()), Vec::new);
         }
-        group.push(i);
+        self.groups[*place as usize - 1].push(i);
     }
     /// Sorts each group by depth.
     pub(super) fn sort_by_depth(&mut self, depth: impl Fn(u32) -> u32) {
-        for &key in &self.keys {
-            let group = &mut self.of_key[key as usize];
+        for group in &mut self.groups[..self.keys.len()] {
             if !group.is_sorted_by_key(|&i| depth(i)) {
                 group.sort_unstable_by_key(|&i| (depth(i), i));
             }
@@ -34,8 +40,8 @@ impl Groups {
     }
     /// The groups, those larger than `size` in parts, each with its key; keys come in the order of their first number.
     pub(super) fn parts(&self, size: usize) -> impl Iterator<Item = (u32, &[u32])> {
-        let parts = move |&key: &u32| self.of_key[key as usize].chunks(size).map(move |part| (key, part));
-        self.keys.iter().flat_map(parts)
+        let groups = self.keys.iter().zip(&self.groups);
+        groups.flat_map(move |(&key, group)| group.chunks(size).map(move |part| (key, part)))
     }
 }
 
