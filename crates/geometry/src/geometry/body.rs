@@ -1,7 +1,7 @@
 //! Shapes ready to be asked, of all kinds in one list: [`Bodies`].
 
 use rayon::prelude::*;
-use sparrow_math::Aabb;
+use sparrow_math::{Aabb, Vec3};
 
 use super::BuildBytes;
 use crate::bvh::{Kind, MAX_PRIMS, Others, Owner, PrimRef, RAYS, RawHit};
@@ -221,6 +221,17 @@ impl Bodies {
             Body::Quadric(q) => q.as_ref().map(|q| q.whole().unwrap_or_else(|| around(q.bounds()))),
             Body::Triangles(_) | Body::Curves(_) | Body::Deforming(_) => None,
         }
+    }
+    /// A ball around what can be hit of a shape.
+    pub(super) fn ball_around(&self, shape: usize) -> Option<(Vec3<f32>, f32)> {
+        if let Some(Body::Quadric(Some(q))) = self.bodies.get(shape)
+            && let Some((center, radius)) = q.whole()
+        {
+            return Some((center.into(), radius));
+        }
+        let (refs, _) = self.refs(shape..self.bodies.len().min(shape + 1));
+        let around = refs.iter().fold(Aabb::EMPTY, |all, one| all.union(one.aabb()));
+        (!around.is_empty()).then(|| (around.center(), around.radius()))
     }
     /// What the world knows of a point the tree found.
     #[inline]

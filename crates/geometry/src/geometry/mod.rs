@@ -143,6 +143,10 @@ impl Geometry {
     pub fn bounds(&self) -> Aabb {
         self.bvh.bounds()
     }
+    /// A ball around a shape, centre and radius, up to rounding, in the space of its group; `None` where nothing of it can be hit.
+    pub fn ball_around(&self, shape: u32) -> Option<(Vec3<f32>, f32)> {
+        self.bodies.ball_around(shape as usize)
+    }
     /// What building cost and gave.
     pub fn stats(&self) -> BuildStats {
         self.stats

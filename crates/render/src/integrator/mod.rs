@@ -15,7 +15,7 @@ pub(crate) use start::{CameraNumbers, CameraSample, Exposed};
 pub struct RayCounts {
     /// From the camera.
     pub camera: u64,
-    /// Further ones that look for the nearest surface.
+    /// Further ones that look for the nearest surface, or, as the last of their path, for light alone.
     pub scattered: u64,
     /// That ask whether a light is seen.
     pub shadow: u64,

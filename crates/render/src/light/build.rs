@@ -12,7 +12,9 @@ use sparrow_spectra::{ColorSpace, photometric};
 
 use super::bounds::{Cone, LightBounds};
 use super::portal::Portal;
-use super::{Environment, EnvironmentColour, EnvironmentMap, Light, LightSelection, Lights, NO_LIGHT};
+use super::{
+    Emitters, Environment, EnvironmentColour, EnvironmentMap, Light, LightSelection, Lights, NO_LIGHT,
+};
 use crate::colour::{Carrier, converted};
 use crate::spectrum::SceneSpectrum;
 use crate::texture::to_equal_area;
@@ -56,7 +58,9 @@ impl LightBuild<'_> {
             }
         }
         let selection = self.selection(&out);
+        let shining = self.emitters.iter().zip(0..).filter_map(|(of, shape)| of.map(|_| shape));
         Lights {
+            emitters: Emitters::new(self.geometry, shining),
             lights: out.lights,
             emissions: out.emissions,
             first_of_shape,

@@ -3,6 +3,7 @@
 mod bounds;
 mod build;
 mod eight;
+mod emitters;
 mod environment;
 mod few;
 mod group;
@@ -21,6 +22,7 @@ use crate::spectrum::SceneSpectrum;
 use portal::Portal;
 
 pub use build::LightBuild;
+pub(crate) use emitters::Emitters;
 pub use environment::{Environment, EnvironmentColour, EnvironmentDraw, EnvironmentMap};
 pub(crate) use few::LitPoints;
 pub use selection::LightSelection;
@@ -156,6 +158,8 @@ pub struct Lights {
     first_of_shape: Vec<u32>,
     /// Lights that rays meet where they leave the scene.
     infinite: Vec<u32>,
+    /// Where else rays meet light, unless that takes too long to ask.
+    emitters: Option<Emitters>,
     selection: LightSelection,
     bounds_radius: f32,
 }
@@ -182,6 +186,10 @@ impl Lights {
         let &[light] = &self.infinite[..] else { return None };
         let Light::Environment(e) = &self.lights[light as usize] else { return None };
         e.samples_in_lanes().then_some((light, e))
+    }
+    /// Where alone rays may meet light; `None` where it comes from all around, or where that takes too long to ask.
+    pub(crate) fn emitters(&self) -> Option<&Emitters> {
+        self.emitters.as_ref().filter(|_| self.infinite.is_empty())
     }
     /// Radius of the scene, with which powers of infinite lights were estimated.
     pub fn bounds_radius(&self) -> f32 {

@@ -84,6 +84,10 @@ impl PrimRef {
     pub(super) fn bounds(&self) -> Box4 {
         Box4 { lo: f32x4::new(self.lo), hi: f32x4::new(self.hi) }
     }
+    /// The box.
+    pub(crate) fn aabb(&self) -> Aabb {
+        self.bounds().to_aabb()
+    }
     /// Twice the centre of the box.
     #[inline(always)]
     pub(super) fn center2(&self) -> f32x4 {

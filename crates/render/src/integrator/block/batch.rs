@@ -9,7 +9,7 @@ use sparrow_spectra::{N_LAMBDA, Wavelengths};
 use super::column::{Column, pad, padded, put_spectrum, put_vector, spectrum, vector};
 use super::lanes::{ToLocal, ToWorld};
 use super::lights::LightSamples;
-use super::onward::{Decide, Directions, Leave, Next, Onward};
+use super::onward::{Blind, Decide, Directions, Leave, Next, Onward};
 use super::paths::{Paths, Steps};
 use super::shadow::Shadows;
 use super::vertices::Vertices;
@@ -189,12 +189,14 @@ impl Batch {
         shadows.push(how, &self.vertices, &self.lights, (&columns.f_cos, &columns.pdf));
     }
 
-    /// The next direction of each path; the path is among those `ended` where there is none, or where roulette says so.
+    /// The next direction of each path; the path is among those `ended` where there is none, where roulette says so, or where its last
+    /// ray can meet no light. Says how many such rays there are.
     pub(super) fn scatter<'b, R: Record + Default>(
         &mut self,
+        (scene, how): (&Scene, &PathIntegrator),
         (paths, ended): (&mut Paths<'_, R>, &mut Vec<u32>),
         roulette: Option<impl Fn([u32; 2]) -> Roulette<'b>>,
-    ) {
+    ) -> u64 {
         let (columns, vertices, n) = (&mut *self.columns, &*self.vertices, self.vertices.len());
         match self.kind {
             Some(kind) => columns.sample(kind, &vertices.nm, n),
@@ -209,7 +211,13 @@ impl Batch {
                 next.survival[k] = here.at_least(next.survival[k], p, beta);
             }
         }
-        in_lanes(Decide { n: padded(n), depth: &vertices.depth, u: &numbers.roulette, next });
+        let (depth, max_depth) = (&vertices.depth, how.max_depth);
+        in_lanes(Decide { n: padded(n), depth, u: &numbers.roulette, next });
+        let emitters =
+            scene.lights().emitters().filter(|_| depth[..n].iter().any(|d| *d as u32 + 1 >= max_depth));
+        if let Some(emitters) = emitters {
+            in_lanes(Blind { n: padded(n), emitters, max_depth, depth, drawn, next });
+        }
         in_lanes(Leave {
             vertices,
             looks: &self.lights.looks,
@@ -219,10 +227,15 @@ impl Batch {
             carried: &mut paths.carried,
             behind: &mut paths.behind,
         });
+        let mut n_blind = 0;
         for (k, &path) in vertices.paths().iter().enumerate() {
             let i = path as usize;
             if next.goes_on[k] <= 0.0 {
                 ended.push(path);
+                if emitters.is_some() && next.blind[k] > 0.0 {
+                    paths.record[i].goes_on(vector(&vertices.at.p, k), spectrum(&next.beta, k));
+                    n_blind += 1;
+                }
                 continue;
             }
             let Steps { depth, n_smooth, .. } = paths.steps[i];
@@ -231,6 +244,7 @@ impl Batch {
             paths.steps[i] = Steps { depth: depth + 1, n_smooth: n_smooth + smooth, eta_scale };
             paths.record[i].goes_on(vector(&vertices.at.p, k), spectrum(&next.beta, k));
         }
+        n_blind
     }
 }
 

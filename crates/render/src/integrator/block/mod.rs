@@ -112,7 +112,8 @@ impl<'a, R: Record + Default> Block<'a, R> {
                 self.batch.sample_lights(scene, &how, &self.paths);
                 self.batch.bind(scene, (&mut self.paths, &self.hits), key);
                 self.batch.direct(&how, &mut self.shadows);
-                self.batch.scatter(
+                self.rays.scattered += self.batch.scatter(
+                    (scene, &how),
                     (&mut self.paths, &mut self.ended),
                     tile.learned.map(|_| |pixel| tile.roulette(pixel)),
                 );

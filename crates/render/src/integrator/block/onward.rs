@@ -1,12 +1,13 @@
 //! The way on from the vertices of a batch: [`Onward`].
 
-use sparrow_math::{InLanes, Real};
+use sparrow_math::{InLanes, Mask, Real};
 use sparrow_spectra::{N_LAMBDA, Spectrum};
 
 use super::column::{Column, load, spectrum, store_spectrum, store_vector, vector};
 use super::paths::NO_DENSITY;
 use super::vertices::Vertices;
 use crate::integrator::path::carried;
+use crate::light::Emitters;
 use crate::roulette::by_throughput;
 
 /// Directions that were drawn, and what they say of them.
@@ -35,6 +36,8 @@ pub(super) struct Next {
     pub(super) survival: Column,
     /// 1 where a path goes on, else 0.
     pub(super) goes_on: Column,
+    /// 1 where it would, but for a last ray that can meet no light, else 0; not looked at where no ray is the last.
+    pub(super) blind: Column,
 }
 
 /// Takes `n` paths from their vertices along the directions that were drawn.
@@ -90,7 +93,33 @@ impl InLanes for Decide<'_> {
     }
 }
 
-/// Puts what paths take with them from their vertices to the paths. Those that end take it along for nothing.
+/// Ends paths whose last ray can meet no light.
+pub(super) struct Blind<'a> {
+    pub(super) n: usize,
+    pub(super) emitters: &'a Emitters,
+    /// Most scattering events.
+    pub(super) max_depth: u32,
+    pub(super) depth: &'a Column,
+    pub(super) drawn: &'a Directions,
+    pub(super) next: &'a mut Next,
+}
+
+impl InLanes for Blind<'_> {
+    type Output = ();
+    #[inline(always)]
+    fn run<R: Real>(self) {
+        let Blind { n, emitters, max_depth, depth, drawn, next } = self;
+        for k in (0..n).step_by(R::WIDTH) {
+            let last = (load::<R>(depth, k) + R::ONE).ge(R::of(max_depth.into()));
+            let met = emitters.may_be_met::<R>(vector(&next.o, k), vector(&drawn.wi, k));
+            let (goes_on, blind) = (load::<R>(&next.goes_on, k), last & !met);
+            goes_on.only_where(blind).store(&mut next.blind[..], k);
+            goes_on.only_where(!blind).store(&mut next.goes_on[..], k);
+        }
+    }
+}
+
+/// Puts what paths take with them from their vertices to the paths. Those that end may take it along for nothing.
 pub(super) struct Leave<'a> {
     pub(super) vertices: &'a Vertices,
     pub(super) looks: &'a Column,
@@ -108,6 +137,9 @@ impl InLanes for Leave<'_> {
         let Leave { vertices, looks, drawn, next, rays, carried, behind } = self;
         let end = R::of(f64::INFINITY);
         for (k, at) in (0..).step_by(R::WIDTH).zip(vertices.paths().chunks(R::WIDTH)) {
+            if !load::<R>(&next.goes_on, k).gt(R::ZERO).any() {
+                continue;
+            }
             let (o, d) = (vector::<R>(&next.o, k), vector::<R>(&drawn.wi, k));
             R::scatter_rows([o.x, o.y, o.z, d.x, d.y, d.z, end, load(&vertices.time, k)], rays, at);
 
