@@ -28,5 +28,5 @@ pub use instance::{Instance, MovingInstance};
 pub use point::{RoundedPoint, SHADOW_END, ShapeSample, SurfacePoint};
 pub use progress::{BuildObserver, BuildProgress};
 pub use ray::{Hit, Ray};
-pub use sample::{PdfColumns, SampleColumns, Viewpoint};
+pub use sample::{Balls, PdfColumns, SampleColumns, Viewpoint};
 pub use shape::{BilinearMesh, CurveBasis, CurveKind, CurveSet, Shape, ShapeInstance, TriangleMesh};

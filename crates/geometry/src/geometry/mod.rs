@@ -15,7 +15,7 @@ use crate::bvh::{Bvh, Few, MAX_PRIMS};
 use crate::instance::{Instance, Instances, MovingInstance};
 use crate::point::ShapeSample;
 use crate::progress::{BuildObserver, Progress};
-use crate::sample::{PdfColumns, SampleColumns, Viewpoint, per_steradian};
+use crate::sample::{Balls, PdfColumns, SampleColumns, Viewpoint, per_steradian};
 use crate::shape::{Shape, ShapeInstance};
 
 /// What a geometry is built from.
@@ -225,6 +225,21 @@ impl Geometry {
                 None
             }
         }
+    }
+    /// Those of `shapes` that are whole balls, in their places.
+    pub fn balls(&self, shapes: impl Iterator<Item = Option<u32>>) -> Balls {
+        let mut balls = Balls::default();
+        for shape in shapes {
+            balls.push(match shape.and_then(|shape| self.body(shape)) {
+                Some(Body::Quadric(Some(q))) => q.drawn_ball(),
+                Some(_) | None => None,
+            });
+        }
+        balls
+    }
+    /// Whether the shape is a whole ball.
+    pub fn is_ball(&self, shape: u32) -> bool {
+        matches!(self.body(shape), Some(Body::Quadric(Some(q))) if q.drawn_ball().is_some())
     }
     /// [`pdf_from`](Self::pdf_from) for each of the first `n` points of `columns`, in lanes, to the bit; false, and nothing done, where
     /// such primitives are drawn one by one.

@@ -4,7 +4,7 @@ use sparrow_math::Vec3;
 
 use super::{Quadric, p_error};
 use crate::point::ShapeSample;
-use crate::sample::{Draw, PdfColumns, SampleColumns, Viewpoint, seen_from};
+use crate::sample::{self, Draw, PdfColumns, SampleColumns, Viewpoint, seen_from};
 
 /// Points an axis of the rule that measures areas under maps that stretch unevenly.
 const AREA_STEPS: u32 = 64;
@@ -57,6 +57,10 @@ impl Quadric {
             }
             None => seen_from(self.sample_area(u)?, from.p),
         }
+    }
+    /// The whole ball that this is, if it is one, and whether its normals point inwards.
+    pub(crate) fn drawn_ball(&self) -> Option<(&sample::Ball, bool)> {
+        self.ball.as_ref().map(|ball| (&ball.single, self.flip))
     }
     /// [`sample_from`](Self::sample_from) from each of `n` viewpoints: the error of the points, or none where this is no whole ball.
     pub(crate) fn sample_from_many(&self, columns: &mut SampleColumns<'_>, n: usize) -> Option<Vec3<f32>> {

@@ -20,10 +20,27 @@ impl Ball {
     pub(crate) fn new(center: Vec3<f64>, radius: f64) -> Ball {
         Ball { center: center.to_f32(), radius: radius as f32 }
     }
+    /// The same ball in every lane.
+    #[inline(always)]
+    fn spread<R: Real>(&self) -> BallOf<R> {
+        BallOf { center: spread(self.center), radius: R::of(self.radius.into()) }
+    }
     /// Bound of the rounding error of its points.
     pub(crate) fn p_error(&self) -> Vec3<f32> {
-        (self.center.abs() + Vec3::splat(self.radius)) * crate::bvh::gamma(5)
+        self.spread::<f32>().p_error()
     }
+    /// Centre and radius.
+    pub(crate) fn to_array(self) -> [f32; 4] {
+        let Ball { center: Vec3 { x, y, z }, radius } = self;
+        [x, y, z, radius]
+    }
+}
+
+/// A ball, or one for each lane.
+#[derive(Clone, Copy)]
+pub(super) struct BallOf<R> {
+    pub(super) center: Vec3<R>,
+    pub(super) radius: R,
 }
 
 /// The cone that a ball fills.
@@ -41,9 +58,9 @@ pub(crate) struct Cone<R> {
 
 impl<R: Real> Cone<R> {
     #[inline(always)]
-    fn new(ball: &Ball, to_center: Vec3<R>) -> Cone<R> {
+    fn new(radius: R, to_center: Vec3<R>) -> Cone<R> {
         let distance = to_center.length();
-        let sin = R::of(ball.radius.into()) / distance;
+        let sin = radius / distance;
         let cos2 = (R::ONE - sin) * (R::ONE + sin);
         Cone { distance, sin, cos2, one_minus_cos: sin * sin / (R::ONE + cos2.safe_sqrt()) }
     }
@@ -57,25 +74,23 @@ impl<R: Real> Cone<R> {
     }
 }
 
-impl Draw for Ball {
-    /// The way to the centre, and the cone around it.
-    type View<R: Real> = (Vec3<R>, Cone<R>);
+/// The way to the centre, and the cone around it.
+type View<R> = (Vec3<R>, Cone<R>);
 
+impl<R: Real> BallOf<R> {
     #[inline(always)]
-    fn view<R: Real>(&self, from: Vec3<R>, _: Option<Vec3<R>>) -> Self::View<R> {
-        let to_center = spread(self.center) - from;
-        (to_center, Cone::new(self, to_center))
-    }
-    /// The same for all of the ball; none where it is too small a target.
-    #[inline(always)]
-    fn pdf<R: Real>(&self, (_, cone): &Self::View<R>, _: Vec3<R>) -> R {
-        let pdf = cone.pdf();
-        pdf.only_where(pdf.lt(R::of(f64::from(f32::MAX))))
+    pub(super) fn p_error(&self) -> Vec3<R> {
+        let reach = self.center.abs() + vec3(self.radius, self.radius, self.radius);
+        reach * R::of(f64::from(crate::bvh::gamma(5)))
     }
     #[inline(always)]
-    fn draw<R: Real>(&self, &(to_center, cone): &Self::View<R>, u: [R; 2]) -> Drawn<R> {
-        let (center, radius) = (spread(self.center), R::of(self.radius.into()));
-
+    pub(super) fn view(&self, from: Vec3<R>) -> View<R> {
+        let to_center = self.center - from;
+        (to_center, Cone::new(self.radius, to_center))
+    }
+    #[inline(always)]
+    pub(super) fn draw(&self, &(to_center, cone): &View<R>, u: [R; 2]) -> Drawn<R> {
+        let radius = self.radius;
         let local = warp::uniform_cone(u, cone.one_minus_cos);
         let (sin2, cos) = (local.x * local.x + local.y * local.y, local.z);
         let frame = Frame::from_z(to_center * (R::ONE / cone.distance));
@@ -103,6 +118,25 @@ impl Draw for Ball {
             drawn.n = Vec3::select(inside, out, drawn.n);
             drawn.distance = R::select(inside, distance, drawn.distance);
         }
-        Drawn { p: center + drawn.n * radius, ..drawn }
+        Drawn { p: self.center + drawn.n * radius, ..drawn }
+    }
+}
+
+impl Draw for Ball {
+    type View<R: Real> = View<R>;
+
+    #[inline(always)]
+    fn view<R: Real>(&self, from: Vec3<R>, _: Option<Vec3<R>>) -> View<R> {
+        self.spread().view(from)
+    }
+    /// The same for all of the ball; none where it is too small a target.
+    #[inline(always)]
+    fn pdf<R: Real>(&self, (_, cone): &View<R>, _: Vec3<R>) -> R {
+        let pdf = cone.pdf();
+        pdf.only_where(pdf.lt(R::of(f64::from(f32::MAX))))
+    }
+    #[inline(always)]
+    fn draw<R: Real>(&self, view: &View<R>, u: [R; 2]) -> Drawn<R> {
+        self.spread().draw(view, u)
     }
 }

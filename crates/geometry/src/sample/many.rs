@@ -167,18 +167,24 @@ impl<S: Draw> InLanes for Many<'_, '_, S> {
             }
             for (view, k) in views.iter().zip((first..n).step_by(R::WIDTH)) {
                 let drawn = self.shape.draw(view, [R::load(c.u[0], k), R::load(c.u[1], k)]);
-                store(drawn.p, &mut c.p, k);
-                store(drawn.n, &mut c.on, k);
-                store(drawn.wi, &mut c.wi, k);
-                drawn.distance.store(c.distance, k);
-                drawn.pdf.only_where(drawn.is_there()).store(c.pdf, k);
+                put(&drawn, c, k);
             }
         }
     }
 }
 
+/// Writes what lanes drew.
 #[inline(always)]
-fn load<R: Real>(c: &[&[f32]; 3], k: usize) -> Vec3<R> {
+pub(super) fn put<R: Real>(drawn: &Drawn<R>, c: &mut SampleColumns<'_>, k: usize) {
+    store(drawn.p, &mut c.p, k);
+    store(drawn.n, &mut c.on, k);
+    store(drawn.wi, &mut c.wi, k);
+    drawn.distance.store(c.distance, k);
+    drawn.pdf.only_where(drawn.is_there()).store(c.pdf, k);
+}
+
+#[inline(always)]
+pub(super) fn load<R: Real>(c: &[&[f32]; 3], k: usize) -> Vec3<R> {
     vec3(R::load(c[0], k), R::load(c[1], k), R::load(c[2], k))
 }
 

@@ -1,6 +1,7 @@
 //! Drawing directions to shapes.
 
 mod ball;
+mod balls;
 mod bilinear;
 mod many;
 mod rectangle;
@@ -8,6 +9,7 @@ mod triangle;
 mod viewpoint;
 
 pub(crate) use ball::Ball;
+pub use balls::Balls;
 pub(crate) use bilinear::Bilinear;
 pub(crate) use many::{Draw, Drawn};
 pub use many::{PdfColumns, SampleColumns};

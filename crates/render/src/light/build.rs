@@ -11,6 +11,7 @@ use sparrow_scene::{AreaLightId, Emission, LightDesc, LightKind, LightSamplerNam
 use sparrow_spectra::{ColorSpace, photometric};
 
 use super::bounds::{Cone, LightBounds};
+use super::bulbs::Bulbs;
 use super::portal::Portal;
 use super::{
     Emitters, Environment, EnvironmentColour, EnvironmentMap, Light, LightSelection, Lights, NO_LIGHT,
@@ -61,6 +62,7 @@ impl LightBuild<'_> {
         let shining = self.emitters.iter().zip(0..).filter_map(|(of, shape)| of.map(|_| shape));
         Lights {
             emitters: Emitters::new(self.geometry, shining),
+            bulbs: Bulbs::new(self.geometry, &out.lights, &out.emissions),
             lights: out.lights,
             emissions: out.emissions,
             first_of_shape,

@@ -2,6 +2,7 @@
 
 mod bounds;
 mod build;
+mod bulbs;
 mod eight;
 mod emitters;
 mod environment;
@@ -19,6 +20,7 @@ use sparrow_spectra::{N_LAMBDA, Spectrum, Wavelengths};
 
 use crate::spectrum::SceneSpectrum;
 
+use bulbs::Bulbs;
 use portal::Portal;
 
 pub use build::LightBuild;
@@ -161,6 +163,7 @@ pub struct Lights {
     /// Where else rays meet light, unless that takes too long to ask.
     emitters: Option<Emitters>,
     selection: LightSelection,
+    bulbs: Bulbs,
     bounds_radius: f32,
 }
 
@@ -266,6 +269,26 @@ impl Lights {
             | Light::Uniform { .. }
             | Light::Environment(_) => None,
         }
+    }
+
+    /// Lights on whole balls have lanes together: [`sample_bulbs`](Self::sample_bulbs).
+    #[inline(always)]
+    pub(crate) fn is_bulb(&self, light: u32) -> bool {
+        self.bulbs.has(light)
+    }
+    /// [`sample`](Self::sample) of the bulb that `which` names from each of the first `n` points of `columns`, in lanes, to the bit: the
+    /// density is zero where that gives none. Writes the errors of points to `p_error`. All lists are as long as `n`, rounded up to whole
+    /// registers, and name bulbs.
+    pub(crate) fn sample_bulbs(
+        &self,
+        which: &[u32],
+        columns: &mut SampleColumns<'_>,
+        p_error: [&mut [f32]; 3],
+        n: usize,
+        nm: [&[f32]; N_LAMBDA],
+        radiance: [&mut [f32]; N_LAMBDA],
+    ) {
+        self.bulbs.sample_many(which, columns, p_error, n, nm, radiance);
     }
 
     /// What the light of a primitive sends from each of the first `n` points on it, and the

@@ -72,7 +72,9 @@ impl MaterialColumns {
     pub(crate) fn bind(&mut self, material: &Material, textures: &Textures, points: &Points<'_>) {
         let n = points.n;
         self.choices = material.choices;
-        let same = |nm: &Column| nm[..n].iter().all(|x| x.to_bits() == nm[0].to_bits());
+        let first = |nm: &Column| nm[0].to_bits();
+        let differ = |nm: &Column, some: &[f32]| some.iter().fold(0, |d, x| d | (x.to_bits() ^ first(nm)));
+        let same = |nm: &Column| nm[..n].chunks(16).all(|some| differ(nm, some) == 0);
         self.n_lambda = if points.nm.iter().all(same) { 1 } else { n };
         self.n_reals = [0; MAX_REALS];
         self.n_spectra = [0; MAX_SPECTRA];

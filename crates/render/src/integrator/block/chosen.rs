@@ -4,7 +4,9 @@ use sparrow_geometry::SampleColumns;
 use sparrow_math::{InLanes, Real, in_lanes, vec3};
 use sparrow_spectra::{N_LAMBDA, Spectrum};
 
-use super::column::{Column, LANES, Rounded, load, padded, spectrum, store_spectrum, store_vector, vector};
+use super::column::{
+    BATCH, Column, LANES, Rounded, load, padded, spectrum, store_spectrum, store_vector, vector,
+};
 use super::lights::parts;
 use super::vertices::Vertices;
 use crate::scene::Scene;
@@ -21,6 +23,9 @@ pub(super) struct Chosen {
     found: [Rows; 2],
     /// Vertices of one light; up to whole registers the last.
     which: Vec<u32>,
+    /// The bulb that each of these chose, and errors of points on them.
+    bulbs: Vec<u32>,
+    errors: Box<[Column; 3]>,
     one: Box<One>,
 }
 
@@ -37,6 +42,21 @@ struct One {
     distance: Column,
     pdf: Column,
     radiance: [Column; N_LAMBDA],
+}
+
+impl One {
+    /// As geometry and lights take them, `n` of them: wavelengths and radiance apart.
+    #[allow(clippy::type_complexity, reason = "three groups of columns")]
+    fn columns(&mut self, n: usize) -> (SampleColumns<'_>, [&[f32]; N_LAMBDA], [&mut [f32]; N_LAMBDA]) {
+        let columns = columns_of(
+            n,
+            (&self.p, &self.n, &self.u),
+            (&mut self.on, &mut self.on_n, &mut self.wi),
+            (&mut self.distance, &mut self.pdf),
+        );
+        let radiance = self.radiance.each_mut().map(|c| &mut c[..]);
+        (columns, self.nm.each_ref().map(|c| &c[..]), radiance)
+    }
 }
 
 /// Light samples in the columns of a batch.
@@ -62,22 +82,40 @@ impl Chosen {
 
     /// Samples the light at those vertices. Returns the errors of the points on it, and 1 where they lie nowhere, else 0.
     pub(super) fn sample(&mut self, scene: &Scene, light: u32, which: &[u32]) -> ([f32; 3], f32) {
-        let (n, n_padded, one) = (which.len(), padded(which.len()), &mut *self.one);
+        self.bring(which);
+        let (mut columns, nm, radiance) = self.one.columns(padded(which.len()));
+        let ends =
+            scene.lights().sample_many(scene.geometry(), light, &mut columns, which.len(), nm, radiance);
+        in_lanes(Keep { which, one: &self.one, rows: &mut self.found });
+        parts(ends)
+    }
+
+    /// Samples, at the vertices `which`, the bulbs among `lights` that they chose, and writes the errors of points.
+    pub(super) fn sample_bulbs(
+        &mut self,
+        scene: &Scene,
+        (lights, which): (&[u32], &[u32]),
+        p_error: &mut [Column; 3],
+    ) {
+        self.bring(which);
+        let Chosen { which: padded_which, bulbs, errors, one, found, .. } = self;
+        bulbs.clear();
+        bulbs.extend(padded_which.iter().map(|k| lights[*k as usize]));
+        let (mut columns, nm, radiance) = one.columns(bulbs.len());
+        let to = errors.each_mut().map(|c| &mut c[..]);
+        scene.lights().sample_bulbs(bulbs, &mut columns, to, bulbs.len(), nm, radiance);
+        for (from, to) in errors.iter().zip(p_error) {
+            which.iter().zip(&from[..]).for_each(|(k, e)| to[*k as usize % BATCH] = *e);
+        }
+        in_lanes(Keep { which, one, rows: found });
+    }
+
+    /// Brings those vertices side by side.
+    fn bring(&mut self, which: &[u32]) {
         self.which.clear();
         self.which.extend_from_slice(which);
-        self.which.resize(n_padded, which.last().copied().unwrap_or(0));
-        in_lanes(Bring { which: &self.which, rows: &self.from, one });
-        let columns = &mut columns_of(
-            n_padded,
-            (&one.p, &one.n, &one.u),
-            (&mut one.on, &mut one.on_n, &mut one.wi),
-            (&mut one.distance, &mut one.pdf),
-        );
-        let (nm, radiance) = (one.nm.each_ref().map(|c| &c[..]), &mut one.radiance);
-        let radiance = radiance.each_mut().map(|c| &mut c[..]);
-        let ends = scene.lights().sample_many(scene.geometry(), light, columns, n, nm, radiance);
-        in_lanes(Keep { which, one, rows: &mut self.found });
-        parts(ends)
+        self.which.resize(padded(which.len()), which.last().copied().unwrap_or(0));
+        in_lanes(Bring { which: &self.which, rows: &self.from, one: &mut self.one });
     }
 
     /// Hands over what was sampled at the `n` vertices of the batch.

@@ -1,12 +1,12 @@
 //! Lights sampled at the vertices of a batch: [`LightSamples`].
 
 use sparrow_geometry::RoundedPoint;
-use sparrow_math::vec3;
+use sparrow_math::{InLanes, Real, in_lanes, vec3};
 use sparrow_spectra::{N_LAMBDA, Wavelengths};
 
 use super::batch::FEW;
 use super::chosen::{Chosen, Found, columns_of};
-use super::column::{BATCH, Column, Rounded, padded, put_spectrum, put_vector};
+use super::column::{BATCH, Column, Rounded, load, padded, put_spectrum, put_vector};
 use super::groups::Groups;
 use super::vertices::Vertices;
 use crate::light::{Ends, LightSample, LitPoints, NO_LIGHT, Target};
@@ -23,7 +23,7 @@ pub(super) struct LightSamples {
     light: Vec<u32>,
     /// Of that choice; zero where there is none.
     probability: Column,
-    by_light: Groups,
+    groups: Groups,
     /// Vertices for which a light was chosen, those of one light together.
     pub(super) order: Vec<u32>,
     /// To the light, unit.
@@ -59,8 +59,9 @@ impl LightSamples {
         (choice, u): (&Column, &[Column; 2]),
     ) {
         let (n, lights) = (vertices.len(), scene.lights());
-        let in_lanes = |light: u32, n: usize| n >= FEW && lights.samples_in_lanes(scene.geometry(), light);
-        if let Some(only) = lights.only().filter(|&light| self.asked.iter().all(|a| *a) && in_lanes(light, n))
+        let has_lanes = |light: u32, n: usize| n >= FEW && lights.samples_in_lanes(scene.geometry(), light);
+        if let Some(only) =
+            lights.only().filter(|&light| self.asked.iter().all(|a| *a) && has_lanes(light, n))
         {
             self.at_all(scene, only, vertices, u);
             self.order.clear();
@@ -68,26 +69,41 @@ impl LightSamples {
             return;
         }
         self.choose(scene, vertices, choice);
-        let mut by_light = core::mem::take(&mut self.by_light);
-        by_light.clear(lights.len());
-        let chosen = self.light.iter().zip(0..).filter(|(light, _)| **light != NO_LIGHT);
-        chosen.for_each(|(light, k)| by_light.push(*light, k));
-        let beside = |(light, which): &(u32, &[u32])| in_lanes(*light, which.len());
-        if by_light.parts(BATCH).any(|part| beside(&part)) {
+        if n >= FEW && self.light.iter().all(|&light| lights.is_bulb(light)) {
+            self.bulbs_at_all(scene, vertices, u);
+            return;
+        }
+        // Bulbs go together.
+        let bulbs = lights.len() as u32;
+        let mut groups = core::mem::take(&mut self.groups);
+        groups.clear(lights.len() + 1);
+        for (&light, k) in self.light.iter().zip(0..).filter(|(light, _)| **light != NO_LIGHT) {
+            groups.push(if lights.is_bulb(light) { bulbs } else { light }, k);
+        }
+        let beside = |(key, which): &(u32, &[u32])| {
+            if *key == bulbs { which.len() >= FEW } else { has_lanes(*key, which.len()) }
+        };
+        if groups.parts(BATCH).any(|part| beside(&part)) {
             self.chosen.take(vertices, u);
-            for (light, which) in by_light.parts(BATCH).filter(beside) {
-                let (p_error, endless) = self.chosen.sample(scene, light, which);
-                self.ends(which, p_error, endless);
+            for (key, which) in groups.parts(BATCH).filter(beside) {
+                if key == bulbs {
+                    let end = &mut self.end.p_error;
+                    self.chosen.sample_bulbs(scene, (&self.light, which), end);
+                    which.iter().for_each(|k| self.endless[*k as usize % BATCH] = 0.0);
+                } else {
+                    let (p_error, endless) = self.chosen.sample(scene, key, which);
+                    self.ends(which, p_error, endless);
+                }
             }
             let LightSamples { end, wi, radiance, probability, pdf, .. } = self;
             self.chosen.hand_over(n, Found { end, wi, radiance, probability, pdf });
         }
-        for (light, which) in by_light.parts(BATCH).filter(|part| !beside(part)) {
-            self.one_by_one(scene, (light, which), (&lambda, vertices), u);
+        for (_, which) in groups.parts(BATCH).filter(|part| !beside(part)) {
+            self.one_by_one(scene, which, (&lambda, vertices), u);
         }
         self.order.clear();
-        by_light.parts(BATCH).for_each(|(_, which)| self.order.extend_from_slice(which));
-        self.by_light = by_light;
+        groups.parts(BATCH).for_each(|(_, which)| self.order.extend_from_slice(which));
+        self.groups = groups;
     }
 
     /// Chooses a light for each vertex.
@@ -107,18 +123,18 @@ impl LightSamples {
         }
     }
 
-    /// One light at the vertices `which`, without lanes.
+    /// The lights that the vertices `which` chose, without lanes.
     fn one_by_one(
         &mut self,
         scene: &Scene,
-        (light, which): (u32, &[u32]),
+        which: &[u32],
         (lambda, vertices): (&impl Fn(u32) -> Wavelengths, &Vertices),
         u: &[Column; 2],
     ) {
         for k in which.iter().map(|k| *k as usize) {
             let (at, u) = (vertices.lit_point(k), [u[0][k], u[1][k]]);
             let w = &lambda(vertices.paths()[k]);
-            match scene.lights().sample(scene.geometry(), light, &at, u, w) {
+            match scene.lights().sample(scene.geometry(), self.light[k], &at, u, w) {
                 Some(s) => self.put(k, &s),
                 None => self.pdf[k] = 0.0,
             }
@@ -140,6 +156,27 @@ impl LightSamples {
         let (p_error, endless) = parts(ends);
         self.end.p_error.iter_mut().zip(p_error).for_each(|(column, e)| column[..n].fill(e));
         self.endless[..n].fill(endless);
+    }
+
+    /// At each vertex the bulb that was chosen there.
+    fn bulbs_at_all(&mut self, scene: &Scene, vertices: &Vertices, u: &[Column; 2]) {
+        let n = vertices.len();
+        let last = self.light[n - 1];
+        self.light.resize(padded(n), last);
+        let columns = &mut columns_of(
+            padded(n),
+            (&vertices.at.p, &vertices.ns, u),
+            (&mut self.end.p, &mut self.end.n, &mut self.wi),
+            (&mut self.distance, &mut self.pdf),
+        );
+        let (nm, radiance) = (vertices.nm.each_ref().map(|c| &c[..]), &mut self.radiance);
+        let radiance = radiance.each_mut().map(|c| &mut c[..]);
+        let p_error = self.end.p_error.each_mut().map(|c| &mut c[..]);
+        scene.lights().sample_bulbs(&self.light, columns, p_error, padded(n), nm, radiance);
+        in_lanes(Chance { n: padded(n), probability: &self.probability, pdf: &mut self.pdf });
+        self.endless[..n].fill(0.0);
+        self.order.clear();
+        self.order.extend(0..n as u32);
     }
 
     /// What all points of a light have in common.
@@ -164,6 +201,24 @@ impl LightSamples {
             Target::Infinity => RoundedPoint::exact(vec3(0.0, 0.0, 0.0)),
         };
         self.end.put(k, &end);
+    }
+}
+
+/// Takes the choice of a light into the density.
+struct Chance<'a> {
+    n: usize,
+    probability: &'a Column,
+    pdf: &'a mut Column,
+}
+
+impl InLanes for Chance<'_> {
+    type Output = ();
+    #[inline(always)]
+    fn run<R: Real>(self) {
+        let Chance { n, probability, pdf } = self;
+        for k in (0..n).step_by(R::WIDTH) {
+            (load::<R>(pdf, k) * load(probability, k)).store(&mut pdf[..], k);
+        }
     }
 }
 
