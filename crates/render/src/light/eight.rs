@@ -121,7 +121,7 @@ pub(super) struct Bounds<R> {
 impl<R: Real> Bounds<R> {
     /// About how much light it sends to the point `p` with normal `n`. [ContyKulla2018, eq. 3]
     ///
-    /// Zero only where no light can arrive: cosines are the largest towards any point of the ball.
+    /// Zero only where no light can arrive: no cosine towards any point of the ball is larger.
     #[inline(always)]
     pub(super) fn importance(&self, p: Vec3<R>, n: Vec3<R>) -> R {
         let Bounds { power, radius, .. } = *self;
@@ -130,10 +130,10 @@ impl<R: Real> Bounds<R> {
         let inv = R::ONE / d2.max(R::of(1e-30)).sqrt();
         let d = to * inv;
         let sin_ball = (radius * inv).min(R::ONE);
-        let ball = ((R::ONE - sin_ball * sin_ball).safe_sqrt(), sin_ball);
 
-        let emits = self.emits(d, ball);
-        let (receives, _) = less(turn(n.dot(d).abs()), ball);
+        let emits = self.emits(d, sin_ball);
+        // Of the cosine towards any point of the ball, a bound without roots: cos(a - b) <= cos a + sin b.
+        let receives = (n.dot(d).abs() + sin_ball).min(R::ONE);
         let least = R::of(LEAST_COSINE);
         let far = emits.max(least) * receives.max(least) * (inv * inv);
         // Within the ball nothing is known of distance and angle.
@@ -145,9 +145,9 @@ impl<R: Real> Bounds<R> {
         R::select(shines, weight, R::ZERO)
     }
 
-    /// Largest cosine of light to its normal, seen along `d` in a `ball` of that angle.
+    /// Largest cosine of light to its normal, seen along `d` in a ball of an angle of that sine.
     #[inline(always)]
-    fn emits(&self, d: Vec3<R>, ball: Turn<R>) -> R {
+    fn emits(&self, d: Vec3<R>, sin_ball: R) -> R {
         // Some normal points everywhere: the usual case of balls and of what is far from flat.
         let all = self.normals.0.le(R::of(-1.0));
         if all.all() {
@@ -155,6 +155,7 @@ impl<R: Real> Bounds<R> {
         }
         let cos = -self.axis.dot(d);
         let cos = R::select(self.two_sided.gt(R::ZERO), cos.abs(), cos);
+        let ball = ((R::ONE - sin_ball * sin_ball).safe_sqrt(), sin_ball);
         let (emits, _) = less(less(turn(cos), self.normals), ball);
         R::select(all, R::ONE, emits)
     }

@@ -43,7 +43,7 @@ pub(super) struct Paths<'a, R> {
     /// The last vertex: its place, the density of the direction taken or [`NO_DENSITY`], and its shading normal.
     pub(super) behind: Vec<[f32; 8]>,
     pub(super) steps: Vec<Steps>,
-    /// Which way on from the first vertex it takes.
+    /// Which way on from the first vertex it takes, where there are several.
     pub(super) way: Vec<u32>,
     /// Of the camera sample that it belongs to, where there are several ways.
     pub(super) family: Vec<u32>,
@@ -123,15 +123,15 @@ impl<'a, R: Record + Default> Paths<'a, R> {
         fresh.put(places, Ray::rows_mut(&mut self.ray), &mut self.carried, &mut self.found);
         // As long as each other, so that one look at a place is enough.
         let (place, sampler, behind) = (&mut self.place[..n], &mut self.sampler[..n], &mut self.behind[..n]);
-        let (steps, way, family) = (&mut self.steps[..n], &mut self.way[..n], &mut self.family[..n]);
+        let steps = &mut self.steps[..n];
         for ((&i, start), numbers) in places.iter().zip(fresh.places()).zip(fresh.samplers()) {
             let i = i as usize;
             (place[i], sampler[i]) = (start, *numbers);
-            (behind[i], steps[i], way[i], family[i]) = (BEGIN, Steps::NONE, 0, 0);
+            (behind[i], steps[i]) = (BEGIN, Steps::NONE);
             self.record[i] = R::default();
         }
         for (&i, of) in places.iter().zip(families) {
-            family[i as usize] = *of;
+            (self.way[i as usize], self.family[i as usize]) = (0, *of);
         }
     }
 
