@@ -224,7 +224,7 @@ impl<'a> Run<'a> {
     fn tile<'j, O: Observer>(
         &self,
         job: &Job<'j, O>,
-        block: &mut Block<'j, <O::Tile as TileObserver>::Record>,
+        block: &mut Block<<O::Tile as TileObserver>::Record>,
     ) -> Result<(), RenderError> {
         let Job { exposure, origin, side, samples } = job;
         let film = exposure.film().tile(*origin, [*side; 2]);

@@ -47,4 +47,5 @@ mod zorder;
 
 pub use column::Draw;
 pub use config::{Randomize, SamplerConfig, SamplerKind};
+pub(crate) use pixel::SampleKey;
 pub use pixel::{Pixel, PixelSampler, Sampler};

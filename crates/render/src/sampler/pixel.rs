@@ -136,6 +136,12 @@ impl Sampler {
         self.pixel(pixel).start(sample)
     }
 
+    /// Goes on with a pixel sample at that dimension.
+    #[inline(always)]
+    pub(crate) fn resume(&self, SampleKey { key, index }: SampleKey, dimension: u32) -> PixelSampler<'_> {
+        PixelSampler { sampler: self, key, index, dimension }
+    }
+
     /// A pixel of the full image.
     #[inline]
     pub fn pixel(&self, place: [u32; 2]) -> Pixel<'_> {
@@ -185,8 +191,8 @@ impl<'a> Pixel<'a> {
         PixelSampler { sampler, key, index, dimension: 0 }
     }
 
-    /// [`start`](Self::start) for each of `samples`, added to `out`.
-    pub(crate) fn start_all(&self, samples: Range<u32>, out: &mut Vec<PixelSampler<'a>>) {
+    /// What [`start`](Self::start) begins with for each of `samples`, added to `out`.
+    pub(crate) fn start_all(&self, samples: Range<u32>, out: &mut Vec<SampleKey>) {
         let Pixel { sampler, morton, key, .. } = *self;
         if let Plan::ZOrder { log2_spp } = sampler.plan
             && samples.end <= 1 << log2_spp
@@ -194,12 +200,19 @@ impl<'a> Pixel<'a> {
             // All are planned, and share the pixel's key.
             out.extend(samples.map(|sample| {
                 let index = u64::from(zorder::reversed_index(morton, sample, log2_spp));
-                PixelSampler { sampler, key, index, dimension: 0 }
+                SampleKey { key, index }
             }));
         } else {
-            out.extend(samples.map(|sample| self.start(sample)));
+            out.extend(samples.map(|sample| self.start(sample).sample_key()));
         }
     }
+}
+
+/// A pixel sample: what its numbers depend on, beside the sampler and the dimension.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct SampleKey {
+    key: u64,
+    index: u64,
 }
 
 /// The numbers of one pixel sample, in the order of the dimensions.
@@ -221,6 +234,12 @@ impl<'a> PixelSampler<'a> {
     #[inline]
     pub fn at(self, dimension: u32) -> PixelSampler<'a> {
         PixelSampler { dimension, ..self }
+    }
+
+    /// What [`Sampler::resume`] goes on with.
+    #[inline]
+    pub(crate) fn sample_key(&self) -> SampleKey {
+        SampleKey { key: self.key, index: self.index }
     }
 
     /// The same pixel sample, so many dimensions on.

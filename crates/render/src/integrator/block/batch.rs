@@ -84,13 +84,13 @@ impl Batch {
         scene: &Scene,
         how: &PathIntegrator,
         sampler: &Sampler,
-        (paths, hits): (&mut Paths<'_, R>, &[Option<Hit>]),
+        (paths, hits): (&mut Paths<R>, &[Option<Hit>]),
         (key, which): (u32, &[u32]),
     ) {
-        let (numbers, steps) = (&paths.sampler[..], &paths.steps[..paths.sampler.len()]);
+        let (numbers, steps) = (&paths.numbers[..], &paths.steps[..paths.numbers.len()]);
         let at = |k: usize| {
             let i = which[k] as usize;
-            numbers[i].at(light_dimension(steps[i].depth))
+            sampler.resume(numbers[i], light_dimension(steps[i].depth))
         };
         let choices = scene.lights().len() > 1 || how.mis.takes_turns();
         let roulette = which.iter().any(|&i| paths.steps[i as usize].depth > 0);
@@ -99,7 +99,7 @@ impl Batch {
     }
 
     /// Samples a light at each vertex.
-    pub(super) fn sample_lights<R>(&mut self, scene: &Scene, how: &PathIntegrator, paths: &Paths<'_, R>) {
+    pub(super) fn sample_lights<R>(&mut self, scene: &Scene, how: &PathIntegrator, paths: &Paths<R>) {
         let (vertices, numbers, n) = (&*self.vertices, &mut self.columns.numbers, self.vertices.len());
         self.lights.clear(n);
         if how.mis.takes_turns() {
@@ -129,7 +129,7 @@ impl Batch {
     pub(super) fn bind<R>(
         &mut self,
         scene: &Scene,
-        (paths, hits): (&mut Paths<'_, R>, &[Option<Hit>]),
+        (paths, hits): (&mut Paths<R>, &[Option<Hit>]),
         key: u32,
     ) {
         let (material, regularized) = (scene.material(key / 2), key % 2 == 1);
@@ -194,7 +194,7 @@ impl Batch {
     pub(super) fn scatter<'b, R: Record + Default>(
         &mut self,
         (scene, how): (&Scene, &PathIntegrator),
-        (paths, ended): (&mut Paths<'_, R>, &mut Vec<u32>),
+        (paths, ended): (&mut Paths<R>, &mut Vec<u32>),
         roulette: Option<impl Fn([u32; 2]) -> Roulette<'b>>,
     ) -> u64 {
         let (columns, vertices, n) = (&mut *self.columns, &*self.vertices, self.vertices.len());

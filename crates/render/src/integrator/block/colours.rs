@@ -21,7 +21,7 @@ impl Colours {
     pub(super) fn measure<R>(
         &mut self,
         sensor: &FilmSensor,
-        paths: &Paths<'_, R>,
+        paths: &Paths<R>,
         which: &[u32],
         mut give: impl FnMut(usize, [f32; 3]),
     ) {

@@ -36,7 +36,7 @@ impl Escapes {
         scene: &Scene,
         how: &PathIntegrator,
         (light, environment): (u32, &Environment),
-        paths: &mut Paths<'_, R>,
+        paths: &mut Paths<R>,
     ) {
         let Columns { d, nm, radiance, pdf } = &mut *self.columns;
         for which in self.path.chunks(BATCH) {

@@ -7,15 +7,15 @@ use super::column::{BATCH, Column, load, padded, put_vector, spectrum, store_vec
 use crate::camera::Camera;
 use crate::integrator::start::{CameraNumbers, CameraSample, FilmPlace, film_point};
 use crate::plan::RenderPlan;
-use crate::sampler::{Draw, PixelSampler, Sampler};
+use crate::sampler::{Draw, SampleKey, Sampler};
 use crate::samples::{OfPixel, Samples};
 use crate::scene::Scene;
 
 /// Camera samples that are drawn together.
 #[derive(Default)]
-pub(super) struct Fresh<'a> {
+pub(super) struct Fresh {
     places: Vec<FilmPlace>,
-    samplers: Vec<PixelSampler<'a>>,
+    keys: Vec<SampleKey>,
     columns: Box<Columns>,
 }
 
@@ -36,19 +36,19 @@ struct Columns {
     pdf: [Column; N_LAMBDA],
 }
 
-impl<'a> Fresh<'a> {
+impl Fresh {
     /// Draws the next of `samples`, at most a batch of them, and `most`; false where there are none.
     pub(super) fn draw(
         &mut self,
         scene: &Scene,
-        sampler: &'a Sampler,
+        sampler: &Sampler,
         plan: &RenderPlan,
         samples: &mut Samples,
         most: usize,
     ) -> bool {
         self.start(sampler, plan, samples, most.min(BATCH));
         let (n, columns) = (self.places.len(), &mut *self.columns);
-        columns.fill(sampler, &self.samplers, (scene, plan));
+        columns.fill(sampler, &self.keys, (scene, plan));
         let (nm, pdf) =
             (columns.nm.each_mut().map(|c| &mut c[..]), columns.pdf.each_mut().map(|c| &mut c[..]));
         plan.sensor.wavelengths_many(&columns.wavelength[..], n, nm, pdf);
@@ -64,9 +64,9 @@ impl<'a> Fresh<'a> {
     }
 
     /// Takes samples, pixel by pixel.
-    fn start(&mut self, sampler: &'a Sampler, plan: &RenderPlan, samples: &mut Samples, most: usize) {
+    fn start(&mut self, sampler: &Sampler, plan: &RenderPlan, samples: &mut Samples, most: usize) {
         self.places.clear();
-        self.samplers.clear();
+        self.keys.clear();
         while self.places.len() < most {
             let left = most - self.places.len();
             let Some(OfPixel { pixel, samples }) = samples.of_pixel(left as u32) else { break };
@@ -75,7 +75,7 @@ impl<'a> Fresh<'a> {
             for (column, x) in self.columns.place.iter_mut().zip(place) {
                 column[here.clone()].fill(x as f32);
             }
-            sampler.pixel(place).start_all(samples.clone(), &mut self.samplers);
+            sampler.pixel(place).start_all(samples.clone(), &mut self.keys);
             self.places.extend(samples.map(|sample| FilmPlace { pixel, weight: 1.0, sample }));
         }
     }
@@ -105,8 +105,8 @@ impl<'a> Fresh<'a> {
             .map(|(place, &weight)| FilmPlace { weight, ..*place })
     }
     /// The numbers of each.
-    pub(super) fn samplers(&self) -> &[PixelSampler<'a>] {
-        &self.samplers
+    pub(super) fn keys(&self) -> &[SampleKey] {
+        &self.keys
     }
     /// Puts their rays to those places, what they carry with their wavelengths, and what they have found with the densities of these.
     pub(super) fn put(
@@ -122,10 +122,10 @@ impl<'a> Fresh<'a> {
 
 impl Columns {
     /// Draws what the scene needs.
-    fn fill(&mut self, sampler: &Sampler, paths: &[PixelSampler<'_>], (scene, plan): (&Scene, &RenderPlan)) {
+    fn fill(&mut self, sampler: &Sampler, keys: &[SampleKey], (scene, plan): (&Scene, &RenderPlan)) {
         let [wavelength, time, lens] = CameraNumbers::DIMENSIONS;
-        let n = paths.len();
-        let at = |k: usize| paths[k];
+        let n = keys.len();
+        let at = |k: usize| sampler.resume(keys[k], 0);
         let pixel = Draw::Pixel(self.pixel.each_mut().map(|c| &mut c[..]));
         let draws = &mut [Draw::One(wavelength, &mut self.wavelength[..]), pixel];
         sampler.fill(n, at, if plan.sensor.draws_wavelengths() { draws } else { &mut draws[1..] });

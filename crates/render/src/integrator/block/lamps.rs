@@ -56,7 +56,7 @@ impl Lamps {
         &mut self,
         scene: &Scene,
         how: &PathIntegrator,
-        paths: &mut Paths<'_, R>,
+        paths: &mut Paths<R>,
         hits: &[Option<Hit>],
     ) {
         let Lamps { by_light, vertices, columns } = self;

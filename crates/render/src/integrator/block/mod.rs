@@ -49,9 +49,9 @@ const N_PATHS: usize = 1024;
 const N_PATHS_OF_ROOM: usize = 2048;
 
 /// Paths side by side, and room for what happens at their vertices.
-pub(crate) struct Block<'a, R> {
-    fresh: Fresh<'a>,
-    paths: Paths<'a, R>,
+pub(crate) struct Block<R> {
+    fresh: Fresh,
+    paths: Paths<R>,
     families: Families,
     colours: Colours,
     /// Places of paths that have ended.
@@ -67,7 +67,7 @@ pub(crate) struct Block<'a, R> {
     rays: RayCounts,
 }
 
-impl<R: Record + Default> Default for Block<'_, R> {
+impl<R: Record + Default> Default for Block<R> {
     fn default() -> Self {
         Block {
             fresh: Fresh::default(),
@@ -87,12 +87,12 @@ impl<R: Record + Default> Default for Block<'_, R> {
     }
 }
 
-impl<'a, R: Record + Default> Block<'a, R> {
+impl<R: Record + Default> Block<R> {
     /// Follows a path from each of `samples` and hands its light to `tile`. Says how many rays that took.
     pub(crate) fn render<T: TileObserver<Record = R>>(
         &mut self,
         scene: &Scene,
-        sampler: &'a Sampler,
+        sampler: &Sampler,
         samples: &mut Samples,
         tile: &mut Exposed<'_, T>,
     ) -> RayCounts {
@@ -131,16 +131,18 @@ impl<'a, R: Record + Default> Block<'a, R> {
         scene: &Scene,
         plan: &RenderPlan,
         how: &PathIntegrator,
-        sampler: &'a Sampler,
+        sampler: &Sampler,
         samples: &mut Samples,
     ) -> bool {
         let Block { fresh, paths, families, ended, begun: [places, of], rays, .. } = self;
         let most = if scene.geometry().is_small() { N_PATHS_OF_ROOM } else { N_PATHS };
+        let mut taken = 0;
         let mut room = most.saturating_sub(paths.len() - ended.len()) / how.splits as usize;
         while room > 0 && fresh.draw(scene, sampler, plan, samples, room) {
             let n = fresh.len();
             places.clear();
-            places.extend(ended.drain(ended.len().saturating_sub(n)..).rev());
+            places.extend(ended[taken..].iter().take(n));
+            taken += places.len();
             places.extend((paths.len() as u32..).take(n - places.len()));
             of.clear();
             if how.splits > 1 {
@@ -150,19 +152,13 @@ impl<'a, R: Record + Default> Block<'a, R> {
             rays.camera += n as u64;
             room -= n;
         }
-        if ended.len() == paths.len() {
-            ended.clear();
-            paths.clear();
-        }
-        // From the end, so that what takes the place of a path is under way.
-        ended.sort_unstable();
-        paths.remove(ended);
+        paths.remove(&ended[taken..]);
         ended.clear();
         paths.len() > 0
     }
 
     /// Paths at their first vertex go on in several ways.
-    fn branch(&mut self, scene: &Scene, plan: &RenderPlan, how: &PathIntegrator, sampler: &'a Sampler) {
+    fn branch(&mut self, scene: &Scene, plan: &RenderPlan, how: &PathIntegrator, sampler: &Sampler) {
         if how.splits == 1 || how.max_depth == 0 || how.max_smooth == 0 {
             return;
         }
@@ -173,7 +169,8 @@ impl<'a, R: Record + Default> Block<'a, R> {
             let FilmPlace { pixel, sample, .. } = paths.place[i];
             for way in 1..how.splits {
                 let sample = plan.sample_of_way(sample, way);
-                paths.branch(i, way, sampler.start(plan.in_full_picture(pixel), sample));
+                let numbers = sampler.start(plan.in_full_picture(pixel), sample).sample_key();
+                paths.branch(i, way, numbers);
                 self.hits.push(Some(hit));
             }
             self.families.grow(paths.family[i], how.splits - 1);

@@ -8,7 +8,7 @@ use super::fresh::Fresh;
 use crate::integrator::start::FilmPlace;
 use crate::integrator::{Finder, PathIntegrator, Record};
 use crate::light::LitPoint;
-use crate::sampler::PixelSampler;
+use crate::sampler::SampleKey;
 use crate::scene::{LastVertex, Scene};
 
 /// What stands for the density of a direction that a delta lobe gave, or the camera.
@@ -32,9 +32,10 @@ impl Steps {
 
 /// Paths under way, a column for each thing that is known of them. What lanes of paths need together stands in rows of eight
 /// numbers, which they read and write at once.
-pub(super) struct Paths<'a, R> {
+pub(super) struct Paths<R> {
     pub(super) place: Vec<FilmPlace>,
-    pub(super) sampler: Vec<PixelSampler<'a>>,
+    /// Of which sample the uniform numbers are.
+    pub(super) numbers: Vec<SampleKey>,
     pub(super) ray: Vec<Ray>,
     /// Light that the path has found, and the densities of its wavelengths.
     pub(super) found: Vec<[f32; 8]>,
@@ -48,13 +49,16 @@ pub(super) struct Paths<'a, R> {
     /// Of the camera sample that it belongs to, where there are several ways.
     pub(super) family: Vec<u32>,
     pub(super) record: Vec<R>,
+    /// While paths are taken away: whose places are free, and from where to where others go.
+    free: Vec<bool>,
+    moves: Vec<[u32; 2]>,
 }
 
-impl<R> Default for Paths<'_, R> {
+impl<R> Default for Paths<R> {
     fn default() -> Self {
         Paths {
             place: Vec::new(),
-            sampler: Vec::new(),
+            numbers: Vec::new(),
             ray: Vec::new(),
             found: Vec::new(),
             carried: Vec::new(),
@@ -63,18 +67,19 @@ impl<R> Default for Paths<'_, R> {
             way: Vec::new(),
             family: Vec::new(),
             record: Vec::new(),
+            free: Vec::new(),
+            moves: Vec::new(),
         }
     }
 }
 
-/// Takes from a column what belongs to paths that have ended, in the order of their places; the last go to these.
-fn remove<T>(column: &mut Vec<T>, ended: &[u32]) {
-    for &i in ended.iter().rev() {
-        column.swap_remove(i as usize);
-    }
+/// Moves what belongs to paths of a column from one place to another, and keeps `n`.
+fn keep<T>(column: &mut Vec<T>, moves: &[[u32; 2]], n: usize) {
+    moves.iter().for_each(|[from, to]| column.swap(*from as usize, *to as usize));
+    column.truncate(n);
 }
 
-impl<R> Paths<'_, R> {
+impl<R> Paths<R> {
     pub(super) fn len(&self) -> usize {
         self.ray.len()
     }
@@ -115,18 +120,18 @@ impl<R> Paths<'_, R> {
     }
 }
 
-impl<'a, R: Record + Default> Paths<'a, R> {
+impl<R: Record + Default> Paths<R> {
     /// Paths of those families begin in those places: of paths that have ended, then behind the last.
-    pub(super) fn begin(&mut self, fresh: &Fresh<'a>, places: &[u32], families: &[u32]) {
+    pub(super) fn begin(&mut self, fresh: &Fresh, places: &[u32], families: &[u32]) {
         let n = places.last().map_or(0, |i| *i as usize + 1).max(self.len());
-        self.grow(fresh, n);
+        self.grow(n);
         fresh.put(places, Ray::rows_mut(&mut self.ray), &mut self.carried, &mut self.found);
         // As long as each other, so that one look at a place is enough.
-        let (place, sampler, behind) = (&mut self.place[..n], &mut self.sampler[..n], &mut self.behind[..n]);
+        let (place, numbers, behind) = (&mut self.place[..n], &mut self.numbers[..n], &mut self.behind[..n]);
         let steps = &mut self.steps[..n];
-        for ((&i, start), numbers) in places.iter().zip(fresh.places()).zip(fresh.samplers()) {
+        for ((&i, start), key) in places.iter().zip(fresh.places()).zip(fresh.keys()) {
             let i = i as usize;
-            (place[i], sampler[i]) = (start, *numbers);
+            (place[i], numbers[i]) = (start, *key);
             (behind[i], steps[i]) = (BEGIN, Steps::NONE);
             self.record[i] = R::default();
         }
@@ -136,12 +141,12 @@ impl<'a, R: Record + Default> Paths<'a, R> {
     }
 
     /// Makes room for `n` paths.
-    fn grow(&mut self, fresh: &Fresh<'a>, n: usize) {
+    fn grow(&mut self, n: usize) {
         if n == self.len() {
             return;
         }
         self.place.resize(n, FilmPlace::default());
-        self.sampler.resize(n, fresh.samplers()[0]);
+        self.numbers.resize(n, SampleKey::default());
         self.ray.resize(n, Ray::new(vec3(0.0, 0.0, 0.0), vec3(0.0, 0.0, 0.0)));
         self.found.resize(n, [0.0; 8]);
         self.carried.resize(n, [0.0; 8]);
@@ -153,9 +158,9 @@ impl<'a, R: Record + Default> Paths<'a, R> {
     }
 
     /// Another way on from the first vertex of path `i`; what the path has found up to there stays with the first.
-    pub(super) fn branch(&mut self, i: usize, way: u32, sampler: PixelSampler<'a>) {
+    pub(super) fn branch(&mut self, i: usize, way: u32, numbers: SampleKey) {
         self.place.push(self.place[i]);
-        self.sampler.push(sampler);
+        self.numbers.push(numbers);
         self.ray.push(self.ray[i]);
         let [.., p, q, r, s] = self.found[i];
         self.found.push([0.0, 0.0, 0.0, 0.0, p, q, r, s]);
@@ -177,32 +182,30 @@ impl<'a, R: Record + Default> Paths<'a, R> {
         self.add(i, beta * l);
     }
 
-    /// Forgets all paths.
-    pub(super) fn clear(&mut self) {
-        self.place.clear();
-        self.sampler.clear();
-        self.ray.clear();
-        self.found.clear();
-        self.carried.clear();
-        self.behind.clear();
-        self.steps.clear();
-        self.way.clear();
-        self.family.clear();
-        self.record.clear();
-    }
-
-    /// Puts the last paths in the places of those that have `ended`, which stand in order.
+    /// Takes away the paths that have `ended`; the last of the others go to their places.
     pub(super) fn remove(&mut self, ended: &[u32]) {
-        remove(&mut self.place, ended);
-        remove(&mut self.sampler, ended);
-        remove(&mut self.ray, ended);
-        remove(&mut self.found, ended);
-        remove(&mut self.carried, ended);
-        remove(&mut self.behind, ended);
-        remove(&mut self.steps, ended);
-        remove(&mut self.way, ended);
-        remove(&mut self.family, ended);
-        remove(&mut self.record, ended);
+        if ended.is_empty() {
+            return;
+        }
+        self.free.clear();
+        self.free.resize(self.len(), false);
+        ended.iter().for_each(|i| self.free[*i as usize] = true);
+        let (all, n) = (self.len(), self.len() - ended.len());
+        let last = (n..all).filter(|i| !self.free[*i]);
+        let places = (0..n).filter(|i| self.free[*i]);
+        let moves = &mut self.moves;
+        moves.clear();
+        moves.extend(last.zip(places).map(|(from, to)| [from as u32, to as u32]));
+        keep(&mut self.place, moves, n);
+        keep(&mut self.numbers, moves, n);
+        keep(&mut self.ray, moves, n);
+        keep(&mut self.found, moves, n);
+        keep(&mut self.carried, moves, n);
+        keep(&mut self.behind, moves, n);
+        keep(&mut self.steps, moves, n);
+        keep(&mut self.way, moves, n);
+        keep(&mut self.family, moves, n);
+        keep(&mut self.record, moves, n);
     }
 }
 

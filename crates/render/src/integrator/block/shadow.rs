@@ -87,7 +87,7 @@ impl Shadows {
     }
 
     /// Traces them, and adds the light that arrives.
-    pub(super) fn trace<R: Record>(&mut self, scene: &Scene, paths: &mut Paths<'_, R>) -> u64 {
+    pub(super) fn trace<R: Record>(&mut self, scene: &Scene, paths: &mut Paths<R>) -> u64 {
         let n = core::mem::take(&mut self.n);
         scene.occluded_many(&self.rays[..n], &mut self.occluded);
         let arrived =

@@ -61,7 +61,7 @@ impl Vertices {
         &mut self,
         scene: &Scene,
         how: &PathIntegrator,
-        paths: &mut Paths<'_, R>,
+        paths: &mut Paths<R>,
         hits: &[Option<Hit>],
         (material, which): (&Material, &[u32]),
     ) {
@@ -83,7 +83,7 @@ impl Vertices {
     pub(super) fn take<R>(
         &mut self,
         scene: &Scene,
-        paths: &Paths<'_, R>,
+        paths: &Paths<R>,
         hits: &[Option<Hit>],
         parts: SurfaceParts,
         which: &[u32],
