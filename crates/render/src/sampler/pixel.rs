@@ -27,6 +27,9 @@ fn log2_block(samples_per_pixel: u32) -> u32 {
     }
 }
 
+/// Logarithm of how many samples have their reversed numbers in a table, at most.
+const LOG2_REVERSED: u32 = 12;
+
 /// What a dimension adds to a pixel sample's key.
 #[inline(always)]
 pub(super) fn key_step(dimension: u32) -> u64 {
@@ -42,9 +45,16 @@ pub(super) fn sobol_seed(seed: u64, dimension: u32, turn: u32) -> u32 {
 /// Tables of the kinds, built once.
 pub(super) enum Plan {
     Independent,
-    Stratified { grid: [u32; 2], jitter: bool },
+    Stratified {
+        grid: [u32; 2],
+        jitter: bool,
+    },
     Padded,
-    ZOrder { log2_spp: u32 },
+    ZOrder {
+        log2_spp: u32,
+        /// Reversed numbers of the planned samples, or of the first of them.
+        reversed: Vec<u32>,
+    },
     Sobol(SobolTables),
     Halton(HaltonTables),
 }
@@ -74,7 +84,10 @@ impl Sampler {
             SamplerKind::PaddedSobol => Plan::Padded,
             SamplerKind::ZSobol | SamplerKind::Pmj02bn => {
                 let log2_spp = 32 - (samples_per_pixel - 1).leading_zeros();
-                Plan::ZOrder { log2_spp: log2_spp.min(31) }
+                let log2_spp = log2_spp.min(31);
+                let n = 1 << log2_spp.min(LOG2_REVERSED);
+                let reversed = (0..n).map(|sample| zorder::reversed_index(0, sample, log2_spp)).collect();
+                Plan::ZOrder { log2_spp, reversed }
             }
             SamplerKind::Sobol => Plan::Sobol(SobolTables::new(config.resolution)),
             SamplerKind::Halton => Plan::Halton(HaltonTables::new(config.resolution, config.randomize, seed)),
@@ -145,7 +158,7 @@ impl Sampler {
     /// A pixel of the full image.
     #[inline]
     pub fn pixel(&self, place: [u32; 2]) -> Pixel<'_> {
-        let (morton, key) = if let Plan::ZOrder { log2_spp } = self.plan {
+        let (morton, key) = if let Plan::ZOrder { log2_spp, .. } = self.plan {
             let morton = zorder::paired_morton(place, self.seed);
             (morton, zorder::key(place, morton, 0, log2_spp, self.seed))
         } else {
@@ -172,7 +185,7 @@ impl<'a> Pixel<'a> {
     pub fn start(&self, sample: u32) -> PixelSampler<'a> {
         let Pixel { sampler, place, morton, mut key } = *self;
         let index = match &sampler.plan {
-            Plan::ZOrder { log2_spp } => {
+            Plan::ZOrder { log2_spp, .. } => {
                 let turn = sample >> log2_spp;
                 if turn > 0 {
                     key = zorder::key(place, morton, turn, *log2_spp, sampler.seed);
@@ -194,14 +207,13 @@ impl<'a> Pixel<'a> {
     /// What [`start`](Self::start) begins with for each of `samples`, added to `out`.
     pub(crate) fn start_all(&self, samples: Range<u32>, out: &mut Vec<SampleKey>) {
         let Pixel { sampler, morton, key, .. } = *self;
-        if let Plan::ZOrder { log2_spp } = sampler.plan
-            && samples.end <= 1 << log2_spp
+        if let Plan::ZOrder { log2_spp, reversed } = &sampler.plan
+            && let Some(reversed) = reversed.get(samples.start as usize..samples.end as usize)
         {
             // All are planned, and share the pixel's key.
-            out.extend(samples.map(|sample| {
-                let index = u64::from(zorder::reversed_index(morton, sample, log2_spp));
-                SampleKey { key, index }
-            }));
+            let of_pixel = zorder::reversed_index(morton, 0, *log2_spp);
+            let index = |of_sample: &u32| u64::from(of_pixel | of_sample);
+            out.extend(reversed.iter().map(|of_sample| SampleKey { key, index: index(of_sample) }));
         } else {
             out.extend(samples.map(|sample| self.start(sample).sample_key()));
         }
