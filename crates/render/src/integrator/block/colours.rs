@@ -23,7 +23,7 @@ impl Colours {
         sensor: &FilmSensor,
         paths: &Paths<R>,
         which: &[u32],
-        mut give: impl FnMut(usize, [f32; 3]),
+        mut give: impl FnMut(usize, f32, f32, f32),
     ) {
         for batch in which.chunks(BATCH) {
             self.which.clear();
@@ -47,7 +47,7 @@ struct Measure<'a, G> {
     give: &'a mut G,
 }
 
-impl<G: FnMut(usize, [f32; 3])> InLanes for Measure<'_, G> {
+impl<G: FnMut(usize, f32, f32, f32)> InLanes for Measure<'_, G> {
     type Output = ();
     #[inline(always)]
     fn run<R: Real>(self) {
@@ -61,7 +61,7 @@ impl<G: FnMut(usize, [f32; 3])> InLanes for Measure<'_, G> {
             R::scatter_rows([r, g, b, none, none, none, none, none], &mut rgb[k..k + R::WIDTH], &LANES);
         }
         for (&i, &[r, g, b, ..]) in which[..n].iter().zip(&*rgb) {
-            give(i as usize, [r, g, b]);
+            give(i as usize, r, g, b);
         }
     }
 }

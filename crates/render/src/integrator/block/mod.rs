@@ -235,10 +235,10 @@ impl<R: Record + Default> Block<R> {
             paths,
             ended,
             #[inline(always)]
-            |i, rgb| {
+            |i, r, g, b| {
                 if tile.how.splits == 1 {
-                    tile.take_rgb(place[i], rgb, || paths.lambda(i), &record[i]);
-                } else if let Some((place, parts)) = families.take(paths.family[i], paths.way[i], rgb) {
+                    tile.take_rgb(place[i], [r, g, b], || paths.lambda(i), &record[i]);
+                } else if let Some((place, parts)) = families.take(paths.family[i], paths.way[i], [r, g, b]) {
                     tile.take_parts(place, parts);
                 }
             },
