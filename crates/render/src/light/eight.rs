@@ -128,36 +128,38 @@ impl<R: Real> Bounds<R> {
         let to = self.center - p;
         let (d2, r2) = (to.length2(), radius * radius);
         let inv = R::ONE / d2.max(R::of(1e-30)).sqrt();
-        let d = to * inv;
         let sin_ball = (radius * inv).min(R::ONE);
-
-        let emits = self.emits(d, sin_ball);
         // Of the cosine towards any point of the ball, a bound without roots: cos(a - b) <= cos a + sin b.
-        let receives = (n.dot(d).abs() + sin_ball).min(R::ONE);
         let least = R::of(LEAST_COSINE);
-        let far = emits.max(least) * receives.max(least) * (inv * inv);
+        let receives = (n.dot(to).abs() * inv + sin_ball).min(R::ONE).max(least);
         // Within the ball nothing is known of distance and angle.
         let within = d2.le(r2);
-        let near = self.near;
 
-        let shines = power.gt(R::ZERO) & (within | emits.ge(self.cos_emission));
-        let weight = (power * R::select(within, near, far)).clamp(R::of(LEAST), R::of(MOST));
-        R::select(shines, weight, R::ZERO)
+        let (far, mut shines) = (receives * (inv * inv), power.gt(R::ZERO));
+        let weight = if self.everywhere().all() {
+            R::select(within, self.near, far)
+        } else {
+            let emits = self.emits(to * inv, sin_ball);
+            shines = shines & (within | emits.ge(self.cos_emission));
+            R::select(within, self.near, emits.max(least) * far)
+        };
+        R::select(shines, (power * weight).clamp(R::of(LEAST), R::of(MOST)), R::ZERO)
+    }
+
+    /// Some normal points to every side, as those of balls do.
+    #[inline(always)]
+    fn everywhere(&self) -> R::Mask {
+        self.normals.0.le(R::of(-1.0))
     }
 
     /// Largest cosine of light to its normal, seen along `d` in a ball of an angle of that sine.
     #[inline(always)]
     fn emits(&self, d: Vec3<R>, sin_ball: R) -> R {
-        // Some normal points everywhere: the usual case of balls and of what is far from flat.
-        let all = self.normals.0.le(R::of(-1.0));
-        if all.all() {
-            return R::ONE;
-        }
         let cos = -self.axis.dot(d);
         let cos = R::select(self.two_sided.gt(R::ZERO), cos.abs(), cos);
         let ball = ((R::ONE - sin_ball * sin_ball).safe_sqrt(), sin_ball);
         let (emits, _) = less(less(turn(cos), self.normals), ball);
-        R::select(all, R::ONE, emits)
+        R::select(self.everywhere(), R::ONE, emits)
     }
 }
 

@@ -72,7 +72,12 @@ impl Vertices {
             let Steps { depth, eta_scale, .. } = paths.steps[path as usize];
             self.eta_scale[k] = eta_scale;
             self.depth[k] = depth as f32;
-            self.ways[k] = how.ways_on(depth);
+        }
+        if how.splits > 1 {
+            let depth = |path: &u32| paths.steps[*path as usize].depth;
+            self.ways.iter_mut().zip(which).for_each(|(ways, path)| *ways = how.ways_on(depth(path)));
+        } else {
+            self.ways[..which.len()].fill(how.ways_on(0));
         }
         let fibre = matches!(material.kind, ModelKind::Fibre(_));
         let parts = SurfaceParts { uv: material.textured || fibre, derivatives: material.textured };
