@@ -7,7 +7,7 @@ use std::sync::atomic::AtomicBool;
 
 use sparrow_render::film::Film;
 use sparrow_render::{RayCounts, RenderOptions, RenderPlan, compile, render, render_strategies};
-use sparrow_scene::{IntegratorName, RouletteName, SceneDesc};
+use sparrow_scene::{ColourMode, IntegratorName, RouletteName, SceneDesc};
 
 /// All of a film that a picture is made of.
 type Bits = Vec<([u64; 3], [u64; 3], u64, u64)>;
@@ -133,6 +133,65 @@ fn all_kinds_of_matter_and_light_agree() {
     agree(everything(false), "plain");
     agree(everything(true), "regularized");
     let mut direct = everything(false);
+    direct.integrator.name = IntegratorName::DirectLighting;
+    agree(direct, "direct lighting");
+}
+
+/// A room with lamps of every form, balls first: each form has its lanes.
+fn lamps(others: &str, n_balls: usize, depth: u32) -> SceneDesc {
+    let emission = ["rgb L\" [ 9 7 5 ]", "blackbody L\" [ 3000 ] \"float scale\" 2", "rgb L\" [ 2 4 9 ]"];
+    let ball = |i: usize| {
+        let (x, y, side) = (i % 5, i / 5, if i % 4 == 3 { "true" } else { "false" });
+        let turned = if i % 6 == 5 { "ReverseOrientation" } else { "" };
+        format!(
+            "AttributeBegin AreaLightSource \"diffuse\" \"{} \"bool twosided\" {side} {turned} Translate {} {} {} \
+             Shape \"sphere\" \"float radius\" {} AttributeEnd\n",
+            emission[i % 3],
+            0.5 * x as f64 - 1.0,
+            1.2 + 0.4 * y as f64,
+            0.3 * y as f64 - 0.5,
+            [0.02, 0.1, 0.2][i % 3],
+        )
+    };
+    let balls: String = (0..n_balls).map(ball).collect();
+    common::describe(&format!(
+        "Film \"rgb\" \"integer xresolution\" 40 \"integer yresolution\" 32
+         Sampler \"zsobol\" \"integer pixelsamples\" 6
+         Integrator \"path\" \"integer maxdepth\" {depth}
+         LookAt 0 1 4  0 0.8 0  0 1 0
+         Camera \"perspective\" \"float fov\" 50
+         WorldBegin
+         {balls}{others}
+         Material \"diffuse\" \"rgb reflectance\" [ 0.5 0.4 0.3 ]
+         Shape \"bilinearmesh\" \"point3 P\" [ -5 0 -5  5 0 -5  -5 0 5  5 0 5 ]
+         Shape \"bilinearmesh\" \"point3 P\" [ -5 0 -2  5 0 -2  -5 5 -2  5 5 -2 ]
+         Material \"conductor\" \"float roughness\" 0.1
+         AttributeBegin Translate 0 0.5 0.5 Shape \"sphere\" \"float radius\" 0.5 AttributeEnd"
+    ))
+}
+
+/// All that shines, but for balls.
+const OTHER_LAMPS: &str = r#"
+    LightSource "point" "rgb I" [ 1 2 3 ] "point3 from" [ -2 3 1 ]
+    AttributeBegin
+      AreaLightSource "diffuse" "rgb L" [ 3 3 2 ]
+      Shape "bilinearmesh" "point3 P" [ -1 3 -1  1 3 -1  -1 3 1  1 3 1 ]
+      Shape "disk" "float height" 2 "float radius" 0.2
+      Shape "trianglemesh" "point3 P" [ -3 1 0  -3 2 0  -3 1 1 ]
+    AttributeEnd
+"#;
+
+#[test]
+fn lamps_of_all_forms_agree() {
+    for (others, n_balls) in [("", 5), (OTHER_LAMPS, 7), (OTHER_LAMPS, 20), ("", 14)] {
+        for depth in [0, 1, 3] {
+            let mut desc = lamps(others, n_balls, depth);
+            agree(desc.clone(), &format!("{n_balls} balls, depth {depth}"));
+            desc.film.colour = ColourMode::Rgb;
+            agree(desc, &format!("{n_balls} balls, depth {depth}, in RGB"));
+        }
+    }
+    let mut direct = lamps(OTHER_LAMPS, 7, 4);
     direct.integrator.name = IntegratorName::DirectLighting;
     agree(direct, "direct lighting");
 }

@@ -329,6 +329,57 @@ fn lanes_draw_what_is_drawn_one_by_one() {
     }
 }
 
+/// Lanes that see a ball each draw what is drawn one by one.
+#[test]
+fn balls_in_lanes_are_drawn_as_one_by_one() {
+    const N: usize = 32;
+    let mut rng = Rng(12);
+    let sizes = [0.01, 0.3, 1.0, 7.0];
+    let ball = |i: usize| {
+        let place = Transform::translate(vec3(i as f64, -2.0 * i as f64, 0.5));
+        ShapeInstance { flip_normal: i % 3 == 1, ..at(super::sphere(sizes[i % 4]), place) }
+    };
+    let cut = Shape::Sphere { radius: 1.0, z_min: -0.5, z_max: 1.0, phi_max: 360.0 };
+    let g = Geometry::build((0..8).map(ball).chain([placed(cut)]).collect());
+    assert!((0..8).all(|shape| g.is_ball(shape)) && !g.is_ball(8) && !g.is_ball(9));
+    let balls = g.balls((0..9).map(Some));
+    for _ in 0..40 {
+        let which: [u32; N] = core::array::from_fn(|_| (8.0 * rng.pair()[0]) as u32);
+        let at: [Vec3<f32>; N] = core::array::from_fn(|k| rng.direction() * [0.2, 3.0, 200.0][k % 3]);
+        let u: [[f32; 2]; N] = core::array::from_fn(|_| rng.pair());
+        let from: [Vec<f32>; 3] = core::array::from_fn(|c| at.iter().map(|p| p.to_array()[c]).collect());
+        let pairs: [Vec<f32>; 2] = core::array::from_fn(|c| u.iter().map(|u| u[c]).collect());
+        let mut out = vec![[0.0; N]; 14];
+        let [px, py, pz, nx, ny, nz, wx, wy, wz, distance, pdf, ex, ey, ez] = &mut out[..] else {
+            unreachable!()
+        };
+        let mut columns = SampleColumns {
+            from: from.each_ref().map(|c| &c[..]),
+            n: from.each_ref().map(|c| &c[..]),
+            u: pairs.each_ref().map(|c| &c[..]),
+            p: [px, py, pz],
+            on: [nx, ny, nz],
+            wi: [wx, wy, wz],
+            distance,
+            pdf,
+        };
+        balls.sample_from_many(&which, &mut columns, [ex, ey, ez], N);
+        for (k, shape) in which.into_iter().enumerate() {
+            let one = g.sample_from(shape, 0, Viewpoint { p: at[k], n: None }, u[k]).expect("a ball is seen");
+            let vector = |first: usize| vec3(out[first][k], out[first + 1][k], out[first + 2][k]);
+            let many = ShapeSample {
+                p: vector(0),
+                n: vector(3),
+                wi: vector(6),
+                distance: out[9][k],
+                pdf: out[10][k],
+                p_error: vector(11),
+            };
+            assert_eq!(bits(&one), bits(&many), "ball {shape} from {:?}", at[k]);
+        }
+    }
+}
+
 #[test]
 fn bent_patches_have_no_lanes() {
     let bent = patch([[-0.5, -0.4, 0.3], [0.5, -0.4, -0.2], [-0.5, 0.4, 0.0], [0.5, 0.6, 0.4]]);
