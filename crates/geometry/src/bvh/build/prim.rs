@@ -58,6 +58,13 @@ pub(super) fn widened(b: Aabb) -> Aabb {
 }
 
 impl PrimRef {
+    /// In the place of one that cannot be hit. It goes into no tree.
+    pub(crate) const NONE: PrimRef = PrimRef { lo: [0.0; 4], hi: [0.0; 4] };
+
+    pub(crate) fn is_none(&self) -> bool {
+        self.lo[3].to_bits() & NORMAL == 0
+    }
+
     /// A primitive with its box, [`widened`].
     pub(crate) fn new(id: u32, b: Aabb, kind: Kind) -> PrimRef {
         let b = widened(b);
