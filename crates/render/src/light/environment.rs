@@ -80,13 +80,14 @@ impl Environment {
         corners: Option<[Vec3<f64>; 4]>,
     ) -> Environment {
         let EnvironmentMap { n, rgb, scale, colour } = map;
-        let mut brightness: Vec<f32> = rgb.iter().map(|c| ((c[0] + c[1] + c[2]) / 3.0).max(0.0)).collect();
+        let mut brightness: Vec<f32> =
+            rgb.par_iter().map(|c| ((c[0] + c[1] + c[2]) / 3.0).max(0.0)).collect();
         if compensate {
             let mean = brightness.iter().map(|&b| f64::from(b)).sum::<f64>() / brightness.len().max(1) as f64;
-            let sharpened: Vec<f32> = brightness.iter().map(|&b| (b - mean as f32).max(0.0)).collect();
+            let mean = mean as f32;
             // An even sky has nothing above its mean; then the plain density serves.
-            if sharpened.iter().any(|&b| b > 0.0) {
-                brightness = sharpened;
+            if brightness.iter().any(|&b| b > mean) {
+                brightness.par_iter_mut().for_each(|b| *b = (*b - mean).max(0.0));
             }
         }
         let axis = |v| to_world.vector(v).to_f32().normalized();
