@@ -66,6 +66,34 @@ pub(crate) fn parse_f64(word: &[u8]) -> Option<f64> {
     s.parse().ok().filter(|v: &f64| v.is_finite())
 }
 
+/// Powers of ten that single precision holds exactly.
+const TENS: [f32; 11] = [1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10];
+
+/// A number of few digits that the text begins with, and its length. `None` where it is written in any other way, or not behind it.
+///
+/// Whole numbers up to 2^24 and powers of ten up to 10^10 are exact, so that their quotient is the number, rounded once.
+fn short_f32(text: &[u8]) -> Option<(f32, usize)> {
+    let first = usize::from(text.first() == Some(&b'-'));
+    let (mut end, mut whole, mut point) = (first, 0_u32, None);
+    loop {
+        match *text.get(end)? {
+            b @ b'0'..=b'9' => whole = 10 * whole + u32::from(b - b'0'),
+            b'.' if point.is_none() => point = Some(end),
+            b if ends_word(b) => break,
+            _ => return None,
+        }
+        if whole > 1 << 24 {
+            return None;
+        }
+        end += 1;
+    }
+    if end == first + usize::from(point.is_some()) {
+        return None;
+    }
+    let value = whole as f32 / TENS.get(point.map_or(0, |point| end - point - 1))?;
+    Some((if first == 1 { -value } else { value }, end))
+}
+
 fn parse_i32(word: &[u8]) -> Option<i32> {
     std::str::from_utf8(word).ok()?.parse().ok()
 }
@@ -138,8 +166,7 @@ impl<'a> Lexer<'a> {
         let mut out = Vec::new();
         let mut group = [0.0; N];
         let mut n = 0;
-        while let Some((start, word)) = self.list_item()? {
-            let Some(v) = parse_f32(word) else { return Err(self.fault(start, word, not_a_number)) };
+        while let Some(v) = self.list_number()? {
             group[n] = v;
             n += 1;
             if n == N {
@@ -214,6 +241,20 @@ impl<'a> Lexer<'a> {
                 let at = self.span(start, 0);
                 Err(Diagnostic::error(at, "the file ends in the middle of a list; close the list with `]`"))
             }
+        }
+    }
+
+    /// The next number of a list; `None` behind `]`.
+    fn list_number(&mut self) -> Result<Option<f32>, Diagnostic> {
+        self.skip_blank();
+        if let Some((v, length)) = short_f32(&self.text[self.pos..]) {
+            self.pos += length;
+            return Ok(Some(v));
+        }
+        let Some((start, word)) = self.list_item()? else { return Ok(None) };
+        match parse_f32(word) {
+            Some(v) => Ok(Some(v)),
+            None => Err(self.fault(start, word, not_a_number)),
         }
     }
 
