@@ -15,7 +15,7 @@ use sparrow_math::Aabb;
 use self::binary::Binary;
 use self::bins::{Extent, Range};
 use self::collapse::{Plan, Wide};
-pub(crate) use self::prim::PrimRef;
+pub(crate) use self::prim::{Box4, PrimRef};
 use self::spatial::{References, Spatial};
 use super::Bvh;
 use super::block::TriBlock;
