@@ -92,13 +92,14 @@ impl Environment {
         }
         let axis = |v| to_world.vector(v).to_f32().normalized();
         let e = [(1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)];
-        let sum: f64 = rgb.iter().map(|c| f64::from(c[0] + c[1] + c[2]) / 3.0).sum();
+        let sum = || rgb.iter().map(|c| f64::from(c[0] + c[1] + c[2]) / 3.0).sum::<f64>();
+        let (sum, density) = rayon::join(sum, || Piecewise2::new(&brightness, n, n));
         let mut environment = Environment {
             n,
             texels: Vec::new(),
             illuminant: None,
             mean: (sum / rgb.len().max(1) as f64) as f32 * scale,
-            density: Piecewise2::new(&brightness, n, n),
+            density,
             portal: None,
             axes: e.map(|(x, y, z)| axis(vec3(x, y, z))),
         };
