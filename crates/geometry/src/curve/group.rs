@@ -182,11 +182,11 @@ impl Cut {
     /// The cheapest cut; none where all centres lie in one place.
     fn best(pieces: &[Piece]) -> Option<Cut> {
         let slicer = Slicer::new(pieces);
-        let mut bins = [[(Box4::EMPTY, 0); 3]; BINS];
+        let mut bins = [[(Box4::EMPTY, 0); BINS]; 3];
         for p in pieces {
             let b = Box4::of(&p.bounds);
-            for (axis, i) in slicer.bins(&b).into_iter().enumerate() {
-                let (bounds, n) = &mut bins[i % BINS][axis];
+            for (bins, i) in bins.iter_mut().zip(slicer.bins(&b)) {
+                let (bounds, n) = &mut bins[i % BINS];
                 (*bounds, *n) = (bounds.union(b), *n + 1);
             }
         }
@@ -194,14 +194,14 @@ impl Cut {
         let cost_of = |(b, n): (Box4, usize)| b.half_area() * n.div_ceil(WIDTH) as f32;
         let mut best = None;
         let mut least = f32::INFINITY;
-        for axis in 0..3 {
+        for (axis, bins) in bins.iter().enumerate() {
             let mut behind = [(Box4::EMPTY, 0); BINS + 1];
             for i in (0..BINS).rev() {
-                behind[i] = join(behind[i + 1], bins[i][axis]);
+                behind[i] = join(behind[i + 1], bins[i]);
             }
             let mut before = (Box4::EMPTY, 0);
             for i in 1..BINS {
-                before = join(before, bins[i - 1][axis]);
+                before = join(before, bins[i - 1]);
                 let cost = cost_of(before) + cost_of(behind[i]);
                 if before.1 > 0 && behind[i].1 > 0 && cost < least {
                     (least, best) = (cost, Some(Cut { slicer, axis, bin: i }));
