@@ -4,7 +4,7 @@ use std::path::Path;
 
 use sparrow_image::{Attribute, Chromaticities, ImageError, OutputImage, write_exr, write_png};
 use sparrow_render::camera::Camera;
-use sparrow_render::film;
+use sparrow_render::film::{self, Developed};
 use sparrow_scene::FilmDesc;
 use sparrow_spectra::ColorSpace;
 
@@ -33,30 +33,9 @@ impl Picture {
     /// Reads a finished render; `half` cuts colours to the range of 16-bit floats, `variance` and `samples` keep those layers.
     pub(crate) fn new(film: &dyn film::Picture, half: bool, variance: bool, samples: bool) -> Picture {
         let [width, height] = film.size();
-        let n = width as usize * height as usize;
         let limit = if half { MAX_HALF } else { f32::MAX };
-        let room = |wanted: bool| if wanted { n } else { 0 };
-        let mut picture = Picture {
-            size: [width as usize, height as usize],
-            rgb: Vec::with_capacity(n),
-            variance: Vec::with_capacity(room(variance)),
-            samples: Vec::with_capacity(room(samples)),
-            n_clipped: 0,
-        };
-        for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
-            let pixel = film.pixel(x, y);
-            let exact = pixel.rgb.map(|v| v as f32);
-            let cut = exact.map(|v| v.clamp(-limit, limit));
-            picture.n_clipped += usize::from(exact.iter().zip(cut).any(|(a, b)| a.abs() > b.abs()));
-            picture.rgb.push(cut);
-            if variance && film.has_variance() {
-                picture.variance.push(pixel.variance.map(|v| v as f32));
-            }
-            if samples {
-                picture.samples.push(pixel.n as f32);
-            }
-        }
-        picture
+        let Developed { rgb, n_clipped, variance, samples } = Developed::new(film, limit, variance, samples);
+        Picture { size: [width as usize, height as usize], rgb, variance, samples, n_clipped }
     }
 
     /// Writes all files. The program does not end while one of them is being written.
@@ -88,11 +67,7 @@ impl Picture {
         let [x0, _, y0, _] = film.pixel_bounds;
         let full = film.resolution.map(|v| v as usize);
         let mut image = OutputImage::new(width, height).cropped([x0 as i32, y0 as i32], full);
-        for (c, name) in ["R", "G", "B"].into_iter().enumerate() {
-            let samples: Vec<f32> = self.rgb.iter().map(|p| p[c]).collect();
-            image =
-                if film.save_fp16 { image.with_f16(name, &samples) } else { image.with_f32(name, samples) };
-        }
+        image = if film.save_fp16 { image.with_rgb_f16(&self.rgb) } else { image.with_rgb("", &self.rgb) };
         if !self.variance.is_empty() {
             // Always 32 bits: the variance of a dark pixel is below what 16 bits can tell from zero.
             image = image.with_rgb("variance", &self.variance);

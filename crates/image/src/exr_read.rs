@@ -2,7 +2,7 @@
 
 use std::fs;
 use std::io::Cursor;
-use std::panic::catch_unwind;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
 use exr::block::chunk::{Chunk, CompressedBlock, TileCoordinates};
@@ -13,8 +13,10 @@ use exr::meta::MetaData;
 use exr::meta::attribute::{AttributeValue, ChannelDescription, Compression, Matrix4x4, SampleType, Text};
 use exr::meta::header::{Header, ImageAttributes, LayerAttributes};
 use half::f16;
+use rayon::prelude::*;
 
 use crate::error::{Fault, check_size};
+use crate::exr_write::blocks_at_once;
 use crate::image::{rgb_channels, split_layer};
 use crate::{Attribute, Chromaticities, Encoding, Image, ImageError, Pixels};
 
@@ -57,12 +59,26 @@ pub fn read_exr(path: &Path) -> Result<(Image, ExrHeader), ImageError> {
 }
 
 /// Decodes a whole file.
+pub(crate) fn decode(bytes: &[u8]) -> Result<(Image, ExrHeader), Fault> {
+    caught(|| decode_blocks(bytes))
+}
+
+/// What `decode` gives.
 ///
 /// The decoder is careful, but some damaged blocks trip its assertions. They are no reason to end a program
 /// that has other textures to name, so a panic becomes a fault here; nothing outlives it but the input.
-pub(crate) fn decode(bytes: &[u8]) -> Result<(Image, ExrHeader), Fault> {
-    catch_unwind(|| decode_blocks(bytes)).unwrap_or_else(|_| {
+fn caught<T>(decode: impl FnOnce() -> Result<T, Fault>) -> Result<T, Fault> {
+    catch_unwind(AssertUnwindSafe(decode)).unwrap_or_else(|_| {
         Err(Fault::damaged("not a sound OpenEXR file: a block of pixels cannot be decoded"))
+    })
+}
+
+/// The pixels of a block. Faults are told one by one, so that the first block that has one is told of whatever others do.
+fn unpacked(chunk: exr::error::Result<Chunk>, meta: &MetaData) -> Result<UncompressedBlock, Fault> {
+    caught(|| {
+        let chunk = chunk.map_err(fault)?;
+        check_dwa(&chunk, meta)?;
+        UncompressedBlock::decompress_chunk(chunk, meta, false).map_err(fault)
     })
 }
 
@@ -75,13 +91,19 @@ fn decode_blocks(bytes: &[u8]) -> Result<(Image, ExrHeader), Fault> {
     let largest = |_: &MetaData, tile: TileCoordinates, block: BlockIndex| {
         tile.level_index == Vec2(0, 0) && canvas.slots[block.layer].iter().any(Option::is_some)
     };
-    for chunk in reader.filter_chunks(true, largest).map_err(fault)? {
-        let chunk = chunk.map_err(fault)?;
-        check_dwa(&chunk, &meta)?;
-        let block = UncompressedBlock::decompress_chunk(chunk, &meta, false).map_err(fault)?;
-        let channels = &meta.headers[block.index.layer].channels;
-        for line in block.lines(channels) {
-            canvas.paint(line, channels.list[line.location.channel].sample_type);
+    let mut chunks = reader.filter_chunks(true, largest).map_err(fault)?;
+    loop {
+        let round: Vec<_> = chunks.by_ref().take(blocks_at_once()).collect();
+        if round.is_empty() {
+            break;
+        }
+        let blocks: Vec<_> = round.into_par_iter().map(|chunk| unpacked(chunk, &meta)).collect();
+        for block in blocks {
+            let block = block?;
+            let channels = &meta.headers[block.index.layer].channels;
+            for line in block.lines(channels) {
+                canvas.paint(line, channels.list[line.location.channel].sample_type);
+            }
         }
     }
     let header = header_of(&first.shared_attributes, &first.own_attributes);

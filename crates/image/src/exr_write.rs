@@ -4,12 +4,16 @@ use std::collections::BTreeSet;
 use std::io::Cursor;
 use std::path::Path;
 
-use exr::image::write::WritableImage;
+use exr::block::writer::{ChunkWriter, ChunksWriter};
+use exr::block::{self, BlockIndex, UncompressedBlock};
+use exr::image::write::layers::{LayersWriter, WritableLayers};
 use exr::image::{AnyChannel, AnyChannels, Blocks, Encoding, FlatSamples, Layer};
 use exr::math::Vec2;
+use exr::meta::MetaData;
 use exr::meta::attribute::{self, AttributeValue, Compression, IntegerBounds, LineOrder, Text};
 use exr::meta::header::{ImageAttributes, LayerAttributes, standard_names};
 use half::f16;
+use rayon::prelude::*;
 
 use crate::{Chromaticities, ImageError, Pixels, atomic};
 
@@ -98,6 +102,16 @@ impl OutputImage {
         self
     }
 
+    /// Adds the three channels `R`, `G`, `B`, rounded to half floats as in [`with_f16`](Self::with_f16).
+    #[must_use]
+    pub fn with_rgb_f16(mut self, rgb: &[[f32; 3]]) -> OutputImage {
+        for (c, name) in ["R", "G", "B"].into_iter().enumerate() {
+            let samples: Vec<f32> = rgb.iter().map(|p| p[c]).collect();
+            self = self.with_f16(name, &samples);
+        }
+        self
+    }
+
     /// Adds the three channels `R`, `G`, `B` of `layer`, which is empty for the picture itself, as floats.
     #[must_use]
     pub fn with_rgb(mut self, layer: &str, rgb: &[[f32; 3]]) -> OutputImage {
@@ -149,11 +163,37 @@ fn encode(image: &OutputImage) -> Result<Vec<u8>, String> {
         white: Vec2(c.white[0], c.white[1]),
     });
     let mut file = Cursor::new(Vec::new());
-    let picture = exr::image::Image { attributes: shared, layer_data: layer };
-    picture.write().to_buffered(&mut file).map_err(|e| format!("cannot be encoded: {e}"))?;
+    let headers = layer.infer_headers(&shared);
+    let pixels = layer.create_writer(&headers);
+    block::write(&mut file, headers, true, |meta, chunks| write_blocks(&pixels, &meta, chunks))
+        .map_err(|e| format!("cannot be encoded: {e}"))?;
     let mut bytes = file.into_inner();
     sort_header(&mut bytes).ok_or("cannot be encoded: the header came out damaged")?;
     Ok(bytes)
+}
+
+/// Blocks that are packed or unpacked side by side before their bytes go on, one after the other.
+pub(crate) fn blocks_at_once() -> usize {
+    4 * rayon::current_num_threads()
+}
+
+fn write_blocks(
+    pixels: &impl LayersWriter,
+    meta: &MetaData,
+    chunks: &mut ChunkWriter<&mut Cursor<Vec<u8>>>,
+) -> exr::error::UnitResult {
+    let blocks: Vec<(usize, BlockIndex)> = meta.enumerate_ordered_header_block_indices().collect();
+    let pack = |&(place, index): &(usize, BlockIndex)| {
+        let data = pixels.extract_uncompressed_block(&meta.headers, index);
+        (place, UncompressedBlock { index, data }.compress_to_chunk(&meta.headers))
+    };
+    for round in blocks.chunks(blocks_at_once()) {
+        let packed: Vec<_> = round.par_iter().map(pack).collect();
+        for (place, chunk) in packed {
+            chunks.write_chunk(place, chunk?)?;
+        }
+    }
+    Ok(())
 }
 
 fn channels_of(image: &OutputImage) -> Result<Vec<AnyChannel<FlatSamples>>, String> {

@@ -105,6 +105,31 @@ fn an_exr_of_many_blocks_comes_back() {
 }
 
 #[test]
+fn threads_change_no_byte_and_no_fault() {
+    let n = 640 * 900;
+    let picture = OutputImage::new(640, 900).with_f32("Y", ramp(n, 0.37)).with_f16("Z", &ramp(n, 0.01));
+    let path = temporary("threads.exr");
+    write_exr(&path, &picture).unwrap();
+    let file = fs::read(&path).unwrap();
+    // The data of two blocks: both are damaged, in different ways.
+    let mut damaged = file.clone();
+    let (early, late) = (file.len() / 3, file.len() / 3 * 2);
+    damaged[early..early + 40].fill(0xff);
+    damaged[late..late + 40].fill(0x55);
+    let faults = [damaged.as_slice(), &file[..late]];
+    let on = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| {
+            write_exr(&path, &picture).unwrap();
+            (fs::read(&path).unwrap(), decode(&file).unwrap().pixels, faults.map(refusal))
+        })
+    };
+    let (one, three) = (on(1), on(3));
+    assert!(one == three && one.0 == file);
+    assert!(one.2.iter().all(|f| !f.is_empty()), "{:?}", one.2);
+}
+
+#[test]
 fn parts_become_layers_where_they_cover_the_same_pixels() {
     use exr::prelude::*;
     let part = |name: &str, size: (usize, usize), channels: &[&str]| {

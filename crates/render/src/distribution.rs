@@ -11,6 +11,7 @@
 //! distribution is uniform. Memory: one `f32` per bin, and 264 bytes per row; an environment map of
 //! 4096 x 4096 takes 65 MiB.
 
+use rayon::prelude::*;
 use sparrow_math::ONE_MINUS_EPSILON;
 
 /// Steps of a cumulative table.
@@ -240,12 +241,12 @@ impl Piecewise2 {
         let mut rows = vec![0.0; (width + 1) * height];
         let mut guides = vec![0; (N_GUIDES + 1) * height];
         let mut totals = vec![0.0; height];
-        let per_row = rows.chunks_exact_mut(width + 1).zip(guides.chunks_exact_mut(N_GUIDES + 1));
-        for (y, (row, guides)) in per_row.enumerate() {
+        let tables = rows.par_chunks_exact_mut(width + 1).zip(guides.par_chunks_exact_mut(N_GUIDES + 1));
+        tables.zip(&mut totals).enumerate().for_each(|(y, ((row, guides), total))| {
             let values = (0..width).map(|x| f.get(y * width + x).map_or(0.0, |w| counted(*w)));
-            totals[y] = accumulate(values, row);
+            *total = accumulate(values, row);
             guide(row, guides);
-        }
+        });
         let (marginal, total) = Cumulative::new(totals.iter().copied());
         Piecewise2 { width, height, rows, guides, marginal, mean: total / (width * height) as f64 }
     }

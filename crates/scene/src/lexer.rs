@@ -27,12 +27,21 @@ pub(crate) struct Token<'a> {
     pub(crate) at: Span,
 }
 
+/// What bytes mean.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Encoding {
+    /// All of them are characters.
+    Ascii,
+    Utf8,
+    /// Text that is no UTF-8 is taken byte by byte.
+    Latin1,
+}
+
 /// Reads tokens from the text of one file.
 #[derive(Debug)]
 pub(crate) struct Lexer<'a> {
     text: &'a [u8],
-    /// Text that is no UTF-8 is taken byte by byte, as Latin-1.
-    utf8: bool,
+    encoding: Encoding,
     file: u32,
     pos: usize,
     line: u32,
@@ -64,6 +73,33 @@ pub(crate) fn parse_f32(word: &[u8]) -> Option<f32> {
 pub(crate) fn parse_f64(word: &[u8]) -> Option<f64> {
     let s = std::str::from_utf8(word).ok().filter(|_| looks_numeric(word))?;
     s.parse().ok().filter(|v: &f64| v.is_finite())
+}
+
+/// Powers of ten that single precision holds exactly.
+const TENS: [f32; 11] = [1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10];
+
+/// A number of few digits that the text begins with, and its length. `None` where it is written in any other way, or not behind it.
+///
+/// Whole numbers up to 2^24 and powers of ten up to 10^10 are exact, so that their quotient is the number, rounded once.
+fn short_f32(text: &[u8]) -> Option<(f32, usize)> {
+    let first = usize::from(text.first() == Some(&b'-'));
+    let (mut whole, mut point) = (0_u64, None);
+    // As many characters hold no number beyond 64 bits.
+    for (i, &b) in text.iter().enumerate().skip(first).take(19) {
+        match b {
+            b'0'..=b'9' => whole = 10 * whole + u64::from(b - b'0'),
+            b'.' if point.is_none() => point = Some(i),
+            _ if ends_word(b) => {
+                let has_digits = i > first + usize::from(point.is_some());
+                let tens = TENS.get(point.map_or(0, |point| i - point - 1))?;
+                let value = whole as f32 / tens;
+                return (has_digits && whole <= 1 << 24)
+                    .then_some((if first == 1 { -value } else { value }, i));
+            }
+            _ => return None,
+        }
+    }
+    None
 }
 
 fn parse_i32(word: &[u8]) -> Option<i32> {
@@ -102,8 +138,12 @@ impl<'a> Lexer<'a> {
     /// A lexer at the start of a text; `file` goes into every span.
     pub(crate) fn new(text: &'a [u8], file: u32) -> Self {
         let text = text.strip_prefix(b"\xef\xbb\xbf").unwrap_or(text);
-        let utf8 = std::str::from_utf8(text).is_ok();
-        Lexer { text, utf8, file, pos: 0, line: 1, counted: (0, 1) }
+        let encoding = match std::str::from_utf8(text) {
+            Ok(_) if text.is_ascii() => Encoding::Ascii,
+            Ok(_) => Encoding::Utf8,
+            Err(_) => Encoding::Latin1,
+        };
+        Lexer { text, encoding, file, pos: 0, line: 1, counted: (0, 1) }
     }
 
     /// The next token; `None` at the end. A fault has been stepped over: the next call goes on behind it.
@@ -138,8 +178,7 @@ impl<'a> Lexer<'a> {
         let mut out = Vec::new();
         let mut group = [0.0; N];
         let mut n = 0;
-        while let Some((start, word)) = self.list_item()? {
-            let Some(v) = parse_f32(word) else { return Err(self.fault(start, word, not_a_number)) };
+        while let Some(v) = self.list_number()? {
             group[n] = v;
             n += 1;
             if n == N {
@@ -217,6 +256,20 @@ impl<'a> Lexer<'a> {
         }
     }
 
+    /// The next number of a list; `None` behind `]`.
+    fn list_number(&mut self) -> Result<Option<f32>, Diagnostic> {
+        self.skip_blank();
+        if let Some((v, length)) = short_f32(&self.text[self.pos..]) {
+            self.pos += length;
+            return Ok(Some(v));
+        }
+        let Some((start, word)) = self.list_item()? else { return Ok(None) };
+        match parse_f32(word) {
+            Some(v) => Ok(Some(v)),
+            None => Err(self.fault(start, word, not_a_number)),
+        }
+    }
+
     fn fault(&mut self, start: usize, word: &[u8], message: fn(&str) -> String) -> Diagnostic {
         let at = self.span(start, self.n_chars(start, self.pos));
         Diagnostic::error(at, message(&String::from_utf8_lossy(word)))
@@ -252,7 +305,7 @@ impl<'a> Lexer<'a> {
         let raw = &self.text[start..self.pos];
         self.pos += 1;
         let text: Cow<'a, str> = match std::str::from_utf8(raw) {
-            Ok(s) if self.utf8 => Cow::Borrowed(s),
+            Ok(s) if self.encoding != Encoding::Latin1 => Cow::Borrowed(s),
             Ok(_) | Err(_) => Cow::Owned(raw.iter().map(|&b| char::from(b)).collect()),
         };
         if escaped { unescape(&text, at).map(Cow::Owned) } else { Ok(text) }
@@ -278,9 +331,11 @@ impl<'a> Lexer<'a> {
     }
 
     fn n_chars(&self, from: usize, to: usize) -> u32 {
-        let bytes = &self.text[from..to];
-        // In UTF-8 every byte but those of the form 10xxxxxx begins a character.
-        let n = if self.utf8 { bytes.iter().filter(|&&b| b & 0xc0 != 0x80).count() } else { bytes.len() };
+        let n = match self.encoding {
+            // Every byte but those of the form 10xxxxxx begins a character.
+            Encoding::Utf8 => self.text[from..to].iter().filter(|&&b| b & 0xc0 != 0x80).count(),
+            Encoding::Ascii | Encoding::Latin1 => to - from,
+        };
         u32::try_from(n).unwrap_or(u32::MAX)
     }
 

@@ -1,5 +1,7 @@
 //! Tokens to statements: [`Parser`].
 
+use std::borrow::Cow;
+
 use sparrow_spectra::ColorSpace;
 
 use crate::diagnostic::{Diagnostic, Span};
@@ -53,9 +55,9 @@ impl<'a> Parser<'a> {
     }
 
     /// A string, where one follows.
-    pub(crate) fn optional_text(&mut self) -> Parsed<Option<(String, Span)>> {
+    pub(crate) fn optional_text(&mut self) -> Parsed<Option<(Cow<'a, str>, Span)>> {
         match self.next()? {
-            Some(Token { kind: TokenKind::Quoted(s), at }) => Ok(Some((s.into_owned(), at))),
+            Some(Token { kind: TokenKind::Quoted(s), at }) => Ok(Some((s, at))),
             Some(other) => {
                 self.give_back(other);
                 Ok(None)

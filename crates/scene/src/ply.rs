@@ -9,6 +9,7 @@
 mod body;
 mod header;
 mod input;
+mod plain;
 #[cfg(test)]
 mod tests;
 

@@ -197,3 +197,39 @@ fn meshes_and_strands_go_from_file_to_file() {
         assert!(said.starts_with("main.pbrt:3:") && said.contains(fault), "{said}");
     }
 }
+
+/// What is said of many mesh files, and the meshes, do not depend on who reads them.
+#[test]
+fn meshes_are_read_by_any_number_of_threads() {
+    let f = Folder::new("threads");
+    let quad = TRIANGLE.replace("3 0 1 2", "4 0 1 2 1").replace("0 1 0", "0 1 7");
+    let (mut sound, mut faulty) = (String::from("WorldBegin\n"), String::from("WorldBegin\n"));
+    for i in 0..20 {
+        f.write(&format!("{i}.ply"), if i % 3 == 0 { &quad } else { TRIANGLE });
+        f.write(&format!("bad{i}.ply"), TRIANGLE.replace("3 0 1 2", &format!("3 0 1 {}", 50 + i)));
+        sound += &format!("Shape \"plymesh\" \"string filename\" \"{i}.ply\"\n");
+        faulty += &format!(
+            " Shape \"plymesh\" \"string filename\" \"bad{i}.ply\"\n Shape \"sphere\" \"float r\" 1\n"
+        );
+        faulty += &format!("Shape \"plymesh\" \"string filename\" \"bad{i}.ply\"\n");
+    }
+    let (sound, faulty) = (f.write("sound.pbrt", sound), f.write("faulty.pbrt", faulty));
+    let on = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| {
+            let scene = read(&sound).unwrap();
+            (format!("{:?}", scene.shapes), scene.files, f.faults(&faulty))
+        })
+    };
+    let (one, three) = (on(1), on(3));
+    assert_eq!(one, three);
+    let names: Vec<String> = one.1.iter().map(|p| p.file_name().unwrap().display().to_string()).collect();
+    assert_eq!(names[..3], ["sound.pbrt", "0.ply", "1.ply"]);
+    let places: Vec<&str> = one.2.lines().filter(|l| l.starts_with("faulty.pbrt:")).collect();
+    assert_eq!(places.len(), 40, "each file is told of once: {}", one.2);
+    for (i, pair) in places.chunks(2).enumerate() {
+        let [mesh, sphere] = [2 + 3 * i, 3 + 3 * i].map(|line| format!("faulty.pbrt:{line}:"));
+        assert!(pair[0].starts_with(&mesh) && pair[0].contains(&format!("vertex {}", 50 + i)), "{pair:?}");
+        assert!(pair[1].starts_with(&sphere) && pair[1].contains("no parameter"), "{pair:?}");
+    }
+}

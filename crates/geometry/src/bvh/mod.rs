@@ -19,7 +19,7 @@ mod tests;
 mod traverse;
 
 pub(crate) use block::{RawHit, TriBlock, gamma};
-pub(crate) use build::PrimRef;
+pub(crate) use build::{Box4, PrimRef};
 pub(crate) use few::{Few, Owner};
 pub(crate) use motion::MotionBvh;
 pub(crate) use node::Kind;

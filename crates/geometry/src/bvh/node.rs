@@ -59,6 +59,15 @@ impl Child {
     pub(crate) fn is_others(self) -> bool {
         self.0 & KIND == OTHERS
     }
+    /// The same child in a tree that has so many nodes and blocks of triangles before those that it was counted among.
+    pub(crate) fn moved(self, [nodes, blocks]: [usize; 2]) -> Child {
+        match (self, self.is_leaf()) {
+            (Child::NONE, _) => self,
+            (_, false) => Child::new(Kind::Node, self.index() + nodes),
+            (_, true) if self.is_others() => self,
+            (_, true) => Child::new(Kind::Triangles, self.index() + blocks),
+        }
+    }
     #[inline(always)]
     pub(crate) fn index(self) -> usize {
         (self.0 & INDEX) as usize

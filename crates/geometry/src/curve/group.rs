@@ -2,10 +2,12 @@
 
 use rayon::prelude::*;
 use sparrow_math::Aabb;
+use wide::{f32x4, i32x4};
 
 use super::cubic::Cubic;
 use super::obb::{ObbBlock, WIDTH};
 use super::strands::Strands;
+use crate::bvh::{Box4, Pages};
 use crate::progress::Progress;
 
 /// Bins an axis.
@@ -23,12 +25,6 @@ pub(super) struct Piece {
     /// Where the segment has its control points.
     place: u32,
     bounds: Aabb,
-}
-
-impl Piece {
-    fn center2(&self, axis: usize) -> f32 {
-        self.bounds.lo[axis] + self.bounds.hi[axis]
-    }
 }
 
 /// The box of a segment or a part of one.
@@ -74,13 +70,25 @@ pub(super) fn pieces(strands: &Strands, split: u32) -> (Vec<Piece>, usize) {
     (pieces, dropped)
 }
 
+/// Blocks with the boxes around them, of neighbours.
+type Part = Vec<(Aabb, ObbBlock)>;
+
 /// Puts pieces into blocks; each with the box around it.
 pub(super) fn blocks(
     pieces: &mut [Piece],
     make: &(impl Fn(u32) -> Cubic + Sync),
     progress: &Progress,
-) -> Vec<(Aabb, ObbBlock)> {
-    told(pieces, 0, make, progress)
+) -> (Vec<Aabb>, Pages<ObbBlock>) {
+    let parts = told(pieces, 0, make, progress);
+    let bounds: Vec<Aabb> = parts.iter().flatten().map(|(around, _)| *around).collect();
+    let mut blocks = Pages::zeroed(bounds.len());
+    let mut rest = &mut blocks[..];
+    let places: Vec<&mut [ObbBlock]> =
+        parts.iter().map(|part| rest.split_off_mut(..part.len()).unwrap_or_default()).collect();
+    parts.into_par_iter().zip(places).for_each(|(part, to)| {
+        to.iter_mut().zip(part).for_each(|(to, (_, block))| *to = block);
+    });
+    (bounds, blocks)
 }
 
 /// Cuts a part that another thread may work on, and tells what has its place.
@@ -89,89 +97,123 @@ fn told(
     depth: u32,
     make: &(impl Fn(u32) -> Cubic + Sync),
     progress: &Progress,
-) -> Vec<(Aabb, ObbBlock)> {
+) -> Vec<Part> {
     let n = pieces.len();
-    let blocks = cut(pieces, depth, make, progress);
-    // Of more, their parts were told.
-    if n <= PARALLEL {
-        progress.add(n);
+    if n > PARALLEL {
+        let (a, b) = halves(pieces, depth);
+        let cut = |part| told(part, depth + 1, make, progress);
+        let (mut a, b) = rayon::join(|| cut(a), || cut(b));
+        a.extend(b);
+        return a;
     }
-    blocks
+    let mut part = Vec::with_capacity(n.div_ceil(WIDTH) * 9 / 8);
+    cut(pieces, depth, make, &mut part);
+    progress.add(n);
+    vec![part]
 }
 
-fn cut(
-    pieces: &mut [Piece],
-    depth: u32,
-    make: &(impl Fn(u32) -> Cubic + Sync),
-    progress: &Progress,
-) -> Vec<(Aabb, ObbBlock)> {
-    let n = pieces.len();
-    if n <= WIDTH {
+/// Cuts a part down to blocks.
+fn cut(pieces: &mut [Piece], depth: u32, make: &impl Fn(u32) -> Cubic, blocks: &mut Vec<(Aabb, ObbBlock)>) {
+    if pieces.len() > WIDTH {
+        let (a, b) = halves(pieces, depth);
+        cut(a, depth + 1, make, blocks);
+        cut(b, depth + 1, make, blocks);
+    } else if !pieces.is_empty() {
         let around = pieces.iter().fold(Aabb::EMPTY, |b, p| b.union(p.bounds));
         let members: Vec<(u32, Cubic)> = pieces.iter().map(|p| (p.id, make(p.id))).collect();
-        if n == 0 {
-            return Vec::new();
-        }
         let mut block = ObbBlock::around(&members);
         for (to, p) in block.place.iter_mut().zip(pieces.iter()) {
             *to = p.place;
         }
-        return vec![(around, block)];
+        blocks.push((around, block));
     }
-    let mid = match best_cut(pieces) {
-        Some((axis, lo, scale, cut)) if depth < MAX_DEPTH => {
-            bring_to_front(pieces, |p| bin(p.center2(axis), lo, scale) < cut)
-        }
+}
+
+/// Cuts pieces in two where it costs least, or in the middle.
+fn halves(pieces: &mut [Piece], depth: u32) -> (&mut [Piece], &mut [Piece]) {
+    let n = pieces.len();
+    let mid = match Cut::best(pieces) {
+        Some(cut) if depth < MAX_DEPTH => bring_to_front(pieces, |p| cut.is_before(p)),
         _ => 0,
     };
-    let mid = if mid == 0 || mid == n { n / 2 } else { mid };
-    let (a, b) = pieces.split_at_mut(mid);
-    let (mut a, b) = if n > PARALLEL {
-        rayon::join(|| told(a, depth + 1, make, progress), || told(b, depth + 1, make, progress))
-    } else {
-        (cut(a, depth + 1, make, progress), cut(b, depth + 1, make, progress))
-    };
-    a.extend(b);
-    a
+    pieces.split_at_mut(if mid == 0 || mid == n { n / 2 } else { mid })
 }
 
-fn bin(center2: f32, lo: f32, scale: f32) -> usize {
-    // The cast sends what is not a number to bin 0.
-    (((center2 - lo) * scale) as usize).min(BINS - 1)
+/// Maps centres to bins, along the three axes.
+#[derive(Clone, Copy)]
+struct Slicer {
+    lo: f32x4,
+    scale: f32x4,
 }
 
-/// The cheapest cut: its axis, the map from centres to bins, and the number of bins before it.
-fn best_cut(pieces: &[Piece]) -> Option<(usize, f32, f32, usize)> {
-    let cost_of = |b: Aabb, n: usize| if n == 0 { 0.0 } else { b.half_area() * n.div_ceil(WIDTH) as f32 };
-    let mut best = None;
-    let mut least = f32::INFINITY;
-    for axis in 0..3 {
-        let centers = pieces.iter().map(|p| p.center2(axis));
-        let (lo, hi) = centers.fold((f32::INFINITY, f32::NEG_INFINITY), |(a, b), c| (a.min(c), b.max(c)));
-        let scale = BINS as f32 * (1.0 - 1e-5) / (hi - lo);
-        if !(hi > lo) || !scale.is_finite() {
-            continue;
-        }
-        let mut bins = [(Aabb::EMPTY, 0_usize); BINS];
+impl Slicer {
+    fn new(pieces: &[Piece]) -> Slicer {
+        let centers = pieces.iter().fold(Box4::EMPTY, |b, p| b.grow(center2(&Box4::of(&p.bounds))));
+        // An axis without extent gets one bin, which offers no cut.
+        let scale = |e: f32| {
+            let scale = BINS as f32 * (1.0 - 1e-5) / e;
+            if e > 0.0 && scale.is_finite() { scale } else { 0.0 }
+        };
+        Slicer { lo: centers.lo, scale: f32x4::new((centers.hi - centers.lo).to_array().map(scale)) }
+    }
+    /// The bins of a piece; what is not a number goes to some bin.
+    #[inline(always)]
+    fn bins(&self, b: &Box4) -> [usize; 3] {
+        let at = ((center2(b) - self.lo) * self.scale).fast_trunc_int();
+        let [x, y, z, _] = at.max(i32x4::splat(0)).min(i32x4::splat(BINS as i32 - 1)).to_array();
+        [x as usize, y as usize, z as usize]
+    }
+}
+
+/// Twice the centre of a box.
+#[inline(always)]
+fn center2(b: &Box4) -> f32x4 {
+    b.lo + b.hi
+}
+
+/// A cut: its axis and the number of bins before it.
+struct Cut {
+    slicer: Slicer,
+    axis: usize,
+    bin: usize,
+}
+
+impl Cut {
+    /// The cheapest cut; none where all centres lie in one place.
+    fn best(pieces: &[Piece]) -> Option<Cut> {
+        let slicer = Slicer::new(pieces);
+        let mut bins = [[(Box4::EMPTY, 0); BINS]; 3];
         for p in pieces {
-            let b = &mut bins[bin(p.center2(axis), lo, scale)];
-            *b = (b.0.union(p.bounds), b.1 + 1);
-        }
-        let join = |a: (Aabb, usize), b: (Aabb, usize)| (a.0.union(b.0), a.1 + b.1);
-        let mut behind = [(Aabb::EMPTY, 0); BINS + 1];
-        for i in (0..BINS).rev() {
-            behind[i] = join(behind[i + 1], bins[i]);
-        }
-        let mut before = (Aabb::EMPTY, 0);
-        for i in 1..BINS {
-            before = join(before, bins[i - 1]);
-            let cost = cost_of(before.0, before.1) + cost_of(behind[i].0, behind[i].1);
-            if before.1 > 0 && behind[i].1 > 0 && cost < least {
-                (least, best) = (cost, Some((axis, lo, scale, i)));
+            let b = Box4::of(&p.bounds);
+            for (bins, i) in bins.iter_mut().zip(slicer.bins(&b)) {
+                let (bounds, n) = &mut bins[i % BINS];
+                (*bounds, *n) = (bounds.union(b), *n + 1);
             }
         }
+        let join = |a: (Box4, usize), b: (Box4, usize)| (a.0.union(b.0), a.1 + b.1);
+        let cost_of = |(b, n): (Box4, usize)| b.half_area() * n.div_ceil(WIDTH) as f32;
+        let mut best = None;
+        let mut least = f32::INFINITY;
+        for (axis, bins) in bins.iter().enumerate() {
+            let mut behind = [(Box4::EMPTY, 0); BINS + 1];
+            for i in (0..BINS).rev() {
+                behind[i] = join(behind[i + 1], bins[i]);
+            }
+            let mut before = (Box4::EMPTY, 0);
+            for i in 1..BINS {
+                before = join(before, bins[i - 1]);
+                let cost = cost_of(before) + cost_of(behind[i]);
+                if before.1 > 0 && behind[i].1 > 0 && cost < least {
+                    (least, best) = (cost, Some(Cut { slicer, axis, bin: i }));
+                }
+            }
+        }
+        best
     }
-    best
+    #[inline(always)]
+    fn is_before(&self, p: &Piece) -> bool {
+        self.slicer.bins(&Box4::of(&p.bounds))[self.axis % 3] < self.bin
+    }
 }
 
 /// Brings those with `first` to the front and counts them.

@@ -80,8 +80,9 @@ impl Curves {
             let c = strands.cubic(segment);
             if split == 0 { c } else { c.part(u) }
         };
-        let (bounds, blocks): (_, Vec<_>) = group::blocks(&mut pieces, &make, progress).into_iter().unzip();
-        Curves { strands, kind, normals, split, blocks: blocks.into(), bounds, dropped, unit: Unit::choose() }
+        let (bounds, blocks) = group::blocks(&mut pieces, &make, progress);
+        drop(pieces);
+        Curves { strands, kind, normals, split, blocks, bounds, dropped, unit: Unit::choose() }
     }
     /// Segments.
     pub(crate) fn len(&self) -> usize {

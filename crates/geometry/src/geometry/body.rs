@@ -92,8 +92,14 @@ impl Body {
         let before = out.len();
         match self {
             Body::Triangles(m) => {
-                let one = |i: u32| m.bounds(i).map(|b| PrimRef::new(first + i, b, Kind::Triangles));
-                out.par_extend((0..m.len() as u32).into_par_iter().filter_map(one));
+                let one = |i: u32| {
+                    m.bounds(i).map_or(PrimRef::NONE, |b| PrimRef::new(first + i, b, Kind::Triangles))
+                };
+                // A list of known length is filled in place; gaps are rare.
+                out.par_extend((0..m.len() as u32).into_par_iter().map(one));
+                if out[before..].par_iter().any(PrimRef::is_none) {
+                    out.retain(|r| !r.is_none());
+                }
                 m.len() - (out.len() - before)
             }
             Body::Patches(m) => {

@@ -3,7 +3,7 @@
 use super::pixels::{Film, PixelView};
 
 /// A finished picture, pixel by pixel.
-pub trait Picture {
+pub trait Picture: Sync {
     /// Width and height.
     fn size(&self) -> [u32; 2];
     /// Whether [`PixelView::variance`] is known.

@@ -21,6 +21,7 @@
 //!
 //! Values that are not finite are refused and counted ([`Film::rejected`]); none ever enters a sum.
 
+mod developed;
 mod error;
 mod fixed;
 mod halves;
@@ -31,6 +32,7 @@ mod pixels;
 mod tests;
 mod tile;
 
+pub use developed::Developed;
 pub use error::FilmError;
 pub use halves::{Halves, Picture};
 pub use pixels::{Film, PixelView, RawPixel, RawSquares};

@@ -80,24 +80,26 @@ impl Environment {
         corners: Option<[Vec3<f64>; 4]>,
     ) -> Environment {
         let EnvironmentMap { n, rgb, scale, colour } = map;
-        let mut brightness: Vec<f32> = rgb.iter().map(|c| ((c[0] + c[1] + c[2]) / 3.0).max(0.0)).collect();
+        let mut brightness: Vec<f32> =
+            rgb.par_iter().map(|c| ((c[0] + c[1] + c[2]) / 3.0).max(0.0)).collect();
         if compensate {
             let mean = brightness.iter().map(|&b| f64::from(b)).sum::<f64>() / brightness.len().max(1) as f64;
-            let sharpened: Vec<f32> = brightness.iter().map(|&b| (b - mean as f32).max(0.0)).collect();
+            let mean = mean as f32;
             // An even sky has nothing above its mean; then the plain density serves.
-            if sharpened.iter().any(|&b| b > 0.0) {
-                brightness = sharpened;
+            if brightness.iter().any(|&b| b > mean) {
+                brightness.par_iter_mut().for_each(|b| *b = (*b - mean).max(0.0));
             }
         }
         let axis = |v| to_world.vector(v).to_f32().normalized();
         let e = [(1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)];
-        let sum: f64 = rgb.iter().map(|c| f64::from(c[0] + c[1] + c[2]) / 3.0).sum();
+        let sum = || rgb.iter().map(|c| f64::from(c[0] + c[1] + c[2]) / 3.0).sum::<f64>();
+        let (sum, density) = rayon::join(sum, || Piecewise2::new(&brightness, n, n));
         let mut environment = Environment {
             n,
             texels: Vec::new(),
             illuminant: None,
             mean: (sum / rgb.len().max(1) as f64) as f32 * scale,
-            density: Piecewise2::new(&brightness, n, n),
+            density,
             portal: None,
             axes: e.map(|(x, y, z)| axis(vec3(x, y, z))),
         };

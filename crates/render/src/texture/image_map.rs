@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use rayon::prelude::*;
 use sparrow_image::Image;
 use sparrow_math::{InLanes, Real, in_lanes, warp};
 use sparrow_scene::{ImageMap, Mapping, TextureFilter, WrapMode};
@@ -204,29 +205,32 @@ impl InLanes for Filtered<'_> {
 ///
 /// Latitude-longitude panoramas (twice as wide as high, z up) are resampled to it, `n` by `n`.
 pub(crate) fn to_equal_area(image: &Image) -> (usize, Vec<[f32; 3]>) {
-    if image.width == image.height {
-        let n = image.width;
-        return (n, (0..n * n).map(|i| image.rgb(i % n, i / n)).collect());
-    }
-    let n = image.height.max(1);
-    let mut rgb = Vec::with_capacity(n * n);
-    for i in 0..n * n {
-        // Four points per pixel, so that small bright spots are not lost.
-        let mut sum = [0.0; 3];
-        for (dx, dy) in [(0.25, 0.25), (0.75, 0.25), (0.25, 0.75), (0.75, 0.75)] {
-            let st = [((i % n) as f32 + dx) / n as f32, ((i / n) as f32 + dy) / n as f32];
-            let d = warp::equal_area_square_to_sphere(st);
-            let u = Real::atan2(d.y, d.x) / (2.0 * core::f32::consts::PI);
-            let u = if u < 0.0 { u + 1.0 } else { u };
-            let v = Real::acos(d.z) * core::f32::consts::FRAC_1_PI;
-            let x = ((u * image.width as f32) as usize).min(image.width - 1);
-            let y = ((v * image.height as f32) as usize).min(image.height - 1);
-            let t = image.rgb(x, y);
-            for k in 0..3 {
-                sum[k] += 0.25 * t[k];
-            }
+    let n = if image.width == image.height { image.width } else { image.height.max(1) };
+    let pixel = |i: usize| {
+        if image.width == image.height {
+            image.rgb(i % n, i / n)
+        } else {
+            from_panorama(image, n, [i % n, i / n])
         }
-        rgb.push(sum);
+    };
+    (n, (0..n * n).into_par_iter().map(pixel).collect())
+}
+
+/// A pixel of the square layout from a panorama: four points, so that small bright spots are not lost.
+fn from_panorama(image: &Image, n: usize, [x, y]: [usize; 2]) -> [f32; 3] {
+    let mut sum = [0.0; 3];
+    for (dx, dy) in [(0.25, 0.25), (0.75, 0.25), (0.25, 0.75), (0.75, 0.75)] {
+        let st = [(x as f32 + dx) / n as f32, (y as f32 + dy) / n as f32];
+        let d = warp::equal_area_square_to_sphere(st);
+        let u = Real::atan2(d.y, d.x) / (2.0 * core::f32::consts::PI);
+        let u = if u < 0.0 { u + 1.0 } else { u };
+        let v = Real::acos(d.z) * core::f32::consts::FRAC_1_PI;
+        let x = ((u * image.width as f32) as usize).min(image.width - 1);
+        let y = ((v * image.height as f32) as usize).min(image.height - 1);
+        let t = image.rgb(x, y);
+        for k in 0..3 {
+            sum[k] += 0.25 * t[k];
+        }
     }
-    (n, rgb)
+    sum
 }

@@ -19,6 +19,7 @@ impl Builder {
     /// All faults, in file order.
     pub(crate) fn finish(mut self) -> Result<SceneDesc, SceneError> {
         self.close_all(0);
+        self.read_meshes();
         let whole = Span::default();
         if self.world.is_none() && self.report.is_clean() {
             let message = if self.statements.is_empty() {

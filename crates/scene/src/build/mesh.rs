@@ -1,12 +1,17 @@
 //! Meshes: from parameters and from PLY files.
 
+use std::collections::HashMap;
+use std::path::PathBuf;
 use std::sync::Arc;
 
+use rayon::prelude::*;
+
 use super::Builder;
-use crate::desc::Mesh;
+use crate::desc::{Mesh, ShapeKind};
 use crate::diagnostic::Span;
 use crate::params::Params;
-use crate::ply;
+use crate::ply::{self, PlyError, PlyMesh};
+use crate::report::Report;
 use crate::tables::Type;
 
 impl Builder {
@@ -99,73 +104,151 @@ impl Builder {
         None
     }
 
-    /// The mesh of a `plymesh`, which moves where there is a second file.
-    pub(super) fn ply_mesh(&mut self, params: &Params) -> Option<Arc<Mesh>> {
+    /// The files of a `plymesh`, of which there is a second one where it moves. They are read when all statements are known.
+    pub(super) fn mesh_files(&mut self, params: &Params) -> Option<MeshFiles> {
         let Some((name, at)) = params.text("filename") else {
             self.report.error(params.at, "the mesh names no file; add \"string filename\" \"...\"");
             return None;
         };
-        let mut start = self.ply_file(name, at)?;
-        let Some((end_name, at)) = params.text("filename_end") else { return Some(start) };
-        let end = self.ply_file(end_name, at)?;
+        let path = self.existing(name, at)?;
+        let start = self.meshes.add(name, at, path, &mut self.report);
+        let end = params.text("filename_end").map(|(name, at)| {
+            let path = self.resolve(name);
+            self.meshes.add(name, at, path, &mut self.report)
+        });
+        Some(MeshFiles { start, end })
+    }
+
+    /// Reads the files of all meshes, side by side, and gives the meshes to their shapes. What there is to say of a file is said
+    /// where it is named first.
+    pub(super) fn read_meshes(&mut self) {
+        let meshes = std::mem::take(&mut self.meshes);
+        let mut files: Vec<Unread> =
+            meshes.paths.par_iter().map(|path| Unread::Read(ply::read(path).map(Box::new))).collect();
+        for PendingMesh { files: of, object, shape, stands } in meshes.pending {
+            let Some(mesh) = self.mesh_of(&of, stands, &mut files) else { continue };
+            let shapes = match object.and_then(|i| self.objects.get_mut(i)) {
+                Some(object) => &mut object.shapes,
+                None => &mut self.shapes,
+            };
+            if let Some(shape) = shapes.get_mut(shape) {
+                shape.kind = ShapeKind::Mesh(mesh);
+            }
+        }
+    }
+
+    fn mesh_of(&mut self, of: &MeshFiles, stands: bool, files: &mut [Unread]) -> Option<Arc<Mesh>> {
+        let name = &of.start.name;
+        let mut start = self.mesh_in(&of.start, files)?;
+        let Some(last) = &of.end else { return Some(start) };
+        self.existing(&last.name, last.at)?;
+        let end = self.mesh_in(last, files)?;
         let other = if end.p.len() != start.p.len() {
             format!("{} vertices and \"{name}\" {}", end.p.len(), start.p.len())
         } else if (&end.triangles, &end.patches) != (&start.triangles, &start.patches) {
             format!("other faces than \"{name}\"")
         } else if end.n.is_empty() != start.n.is_empty() {
             format!("{} normals and \"{name}\" {}", end.n.len(), start.n.len())
+        } else if stands {
+            return Some(start);
         } else {
             let mesh = Arc::make_mut(&mut start);
             (mesh.p_end, mesh.n_end) = (end.p.clone(), end.n.clone());
             return Some(start);
         };
         let message =
-            format!("\"{end_name}\" has {other}; both ends of a motion have the same vertices and faces");
-        self.report.error(at, message);
+            format!("\"{}\" has {other}; both ends of a motion have the same vertices and faces", last.name);
+        self.report.error(last.at, message);
         None
     }
 
-    /// The mesh of a file; each is read once.
-    fn ply_file(&mut self, name: &str, at: Span) -> Option<Arc<Mesh>> {
-        let path = self.existing(name, at)?;
-        if let Some(known) = self.meshes.get(&path) {
-            return known.clone();
+    /// The mesh of a file that was read.
+    fn mesh_in(&mut self, of: &MeshFile, files: &mut [Unread]) -> Option<Arc<Mesh>> {
+        let file = &mut files[of.file];
+        if let Unread::Known(mesh) = file {
+            return mesh.clone();
         }
-        let mesh = self.read_ply(name, &path, at).map(Arc::new);
-        self.meshes.insert(path, mesh.clone());
-        mesh
-    }
-
-    fn read_ply(&mut self, name: &str, path: &std::path::Path, at: Span) -> Option<Mesh> {
-        let read = match ply::read(path) {
-            Ok(read) => read,
-            Err(e) => {
-                self.report.error(at, format!("\"{name}\" cannot be read: {e}"));
-                return None;
+        let Unread::Read(read) = std::mem::replace(file, Unread::Known(None)) else { return None };
+        match read {
+            Ok(read) => {
+                for note in &read.notes {
+                    self.report.warn(of.at, format!("\"{}\": {note}", of.name));
+                }
+                let mesh = Arc::new(described(*read));
+                *file = Unread::Known(Some(Arc::clone(&mesh)));
+                Some(mesh)
             }
-        };
-        self.report.add_file(path.to_path_buf());
-        for note in &read.notes {
-            self.report.warn(at, format!("\"{name}\": {note}"));
+            Err(e) => {
+                self.report.error(of.at, format!("\"{}\" cannot be read: {e}", of.name));
+                None
+            }
         }
-        // Around the face in the file, row by row in a patch.
-        let patches = read.quads.into_iter().map(|[a, b, c, d]| [a, b, d, c]).collect();
-        let mesh =
-            Mesh { p: read.p, n: read.n, uv: read.uv, triangles: read.triangles, patches, ..Mesh::default() };
-        let numbers = mesh.p.iter().chain(&mesh.n).flatten().chain(mesh.uv.iter().flatten());
-        if numbers.into_iter().any(|v| !v.is_finite()) {
-            let message = format!("\"{name}\" holds a vertex that is not finite; repair the mesh");
-            self.report.error(at, message);
-            return None;
-        }
-        let n = mesh.p.len();
-        let mut corners = mesh.triangles.iter().flatten().chain(mesh.patches.iter().flatten());
-        if let Some(bad) = corners.find(|&&i| i as usize >= n) {
-            let message =
-                format!("\"{name}\" has a face with corner {bad}, and {n} vertices; repair the mesh");
-            self.report.error(at, message);
-            return None;
-        }
-        Some(mesh)
+    }
+}
+
+fn described(read: PlyMesh) -> Mesh {
+    // Around the face in the file, row by row in a patch.
+    let patches = read.quads.into_iter().map(|[a, b, c, d]| [a, b, d, c]).collect();
+    Mesh { p: read.p, n: read.n, uv: read.uv, triangles: read.triangles, patches, ..Mesh::default() }
+}
+
+/// A file, read and perhaps not yet looked at.
+enum Unread {
+    Read(Result<Box<PlyMesh>, PlyError>),
+    /// `None` where it could not be read, which has been said.
+    Known(Option<Arc<Mesh>>),
+}
+
+/// A mesh file where the scene names it.
+#[derive(Debug)]
+pub(super) struct MeshFile {
+    name: String,
+    at: Span,
+    /// Its number among all of them.
+    file: usize,
+}
+
+/// The files of a `plymesh`.
+#[derive(Debug)]
+pub(super) struct MeshFiles {
+    start: MeshFile,
+    end: Option<MeshFile>,
+}
+
+impl MeshFiles {
+    pub(super) fn deforms(&self) -> bool {
+        self.end.is_some()
+    }
+}
+
+/// A shape whose mesh is still in files.
+#[derive(Debug)]
+pub(super) struct PendingMesh {
+    pub(super) files: MeshFiles,
+    /// The object that it is part of.
+    pub(super) object: Option<usize>,
+    /// Its number among the shapes of the object, or those outside of objects.
+    pub(super) shape: usize,
+    /// It keeps its form where motion starts.
+    pub(super) stands: bool,
+}
+
+/// Meshes in files, to be read.
+#[derive(Debug, Default)]
+pub(super) struct PendingMeshes {
+    /// The files; each is read once.
+    paths: Vec<PathBuf>,
+    known: HashMap<PathBuf, usize>,
+    pub(super) pending: Vec<PendingMesh>,
+}
+
+impl PendingMeshes {
+    fn add(&mut self, name: &str, at: Span, path: PathBuf, report: &mut Report) -> MeshFile {
+        let file = *self.known.entry(path).or_insert_with_key(|path| {
+            report.add_file(path.clone());
+            self.paths.push(path.clone());
+            self.paths.len() - 1
+        });
+        MeshFile { name: name.to_owned(), at, file }
     }
 }

@@ -29,7 +29,7 @@ use std::sync::Arc;
 
 use sparrow_math::Transform;
 
-use crate::desc::{AreaLightDesc, ColourMode, LightDesc, Mesh};
+use crate::desc::{AreaLightDesc, ColourMode, LightDesc};
 use crate::diagnostic::Span;
 use crate::params::Params;
 use crate::report::Report;
@@ -38,6 +38,7 @@ use crate::tables::Entity;
 use blocks::Block;
 use graphics::Graphics;
 use materials::PendingMaterial;
+use mesh::PendingMeshes;
 use replace::Replacement;
 use shapes::{Object, PendingInstance, PendingShape};
 use textures::{PendingTexture, Textures};
@@ -119,8 +120,8 @@ pub(crate) struct Builder {
     open_object: Option<usize>,
     instances: Vec<PendingInstance>,
 
-    /// Meshes by file; `None` for those that could not be read.
-    meshes: HashMap<PathBuf, Option<Arc<Mesh>>>,
+    /// Meshes that are still in files.
+    meshes: PendingMeshes,
     spectra: spectrum::Cache,
     made: Textures,
 }
@@ -153,7 +154,7 @@ impl Builder {
             object_names: HashMap::new(),
             open_object: None,
             instances: Vec::new(),
-            meshes: HashMap::new(),
+            meshes: PendingMeshes::default(),
             spectra: spectrum::Cache::default(),
             made: Textures::default(),
         }

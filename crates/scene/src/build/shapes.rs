@@ -7,6 +7,7 @@ use sparrow_math::Transform;
 use super::Builder;
 use super::curves::joined;
 use super::materials::MaterialRef;
+use super::mesh::{MeshFiles, PendingMesh};
 use crate::desc::{AreaLightId, ShapeKind};
 use crate::diagnostic::Span;
 use crate::params::Params;
@@ -69,7 +70,8 @@ impl Builder {
         if entity.support != Support::Yes {
             return;
         }
-        let Some(mut kind) = self.shape_kind(entity.name, &mut params) else { return };
+        let Some((mut kind, files)) = self.kind_or_files(entity.name, &mut params) else { return };
+        let deforms = kind.deforms() || files.as_ref().is_some_and(MeshFiles::deforms);
         let mut area_light = self.graphics.area_light;
         if area_light.is_some() && self.open_object.is_some() {
             self.no_light_in_objects(params.at);
@@ -79,7 +81,8 @@ impl Builder {
             self.report.warn(params.at, "curves do not emit light; the area light is ignored for them");
             area_light = None;
         }
-        if area_light.is_some() && kind.deforms() {
+        let stands = area_light.is_some() && deforms;
+        if stands {
             let message = "a shape that emits light cannot deform; it keeps its form where motion starts";
             self.report.warn(params.at, message);
             kind = standing(kind);
@@ -108,13 +111,25 @@ impl Builder {
         if !shapes.last_mut().is_some_and(|last| last.takes(&shape)) {
             shapes.push(shape);
         }
+        if let Some(files) = files {
+            let (object, shape) = (self.open_object, shapes.len() - 1);
+            self.meshes.pending.push(PendingMesh { files, object, shape, stands });
+        }
+    }
+
+    /// What a shape is; or, of a mesh in files, these, and a mesh without faces that keeps its place.
+    fn kind_or_files(&mut self, name: &str, params: &mut Params) -> Option<(ShapeKind, Option<MeshFiles>)> {
+        if name == "plymesh" {
+            let files = self.mesh_files(params)?;
+            return Some((ShapeKind::Mesh(Arc::default()), Some(files)));
+        }
+        Some((self.shape_kind(name, params)?, None))
     }
 
     fn shape_kind(&mut self, name: &str, params: &mut Params) -> Option<ShapeKind> {
         match name {
             "trianglemesh" => self.triangle_mesh(params).map(ShapeKind::Mesh),
             "bilinearmesh" => self.bilinear_mesh(params).map(ShapeKind::Mesh),
-            "plymesh" => self.ply_mesh(params).map(ShapeKind::Mesh),
             "curve" => self.curve(params).map(|c| ShapeKind::Curves(Arc::new(c))),
             "hair" => self.strands(params).map(|c| ShapeKind::Curves(Arc::new(c))),
             "sphere" => {

@@ -222,7 +222,7 @@ impl Builder {
                 let (inside, inside_at) = parser.text()?;
                 let outside = parser.optional_text()?;
                 self.medium_uses.push((inside, inside_at));
-                self.medium_uses.extend(outside);
+                self.medium_uses.extend(outside.map(|(name, at)| (name.into_owned(), at)));
             }
             "ColorSpace" => {
                 let (name, at) = parser.text()?;

@@ -101,3 +101,41 @@ fn columns_on_a_very_long_line_take_linear_time() {
     let last = tokens(text.as_bytes()).pop().unwrap();
     assert_eq!(last.1, (1, 4 * (1 << 20) - 3, 3));
 }
+
+#[test]
+fn short_numbers_are_what_the_parser_of_the_library_makes_of_them() {
+    let mut texts: Vec<String> = [
+        "0",
+        "-0",
+        "5.",
+        ".5",
+        "-.25",
+        "16777216",
+        "0000000001.5",
+        "1.0000000000",
+        "0.0000000001",
+        "7.77777e0",
+    ]
+    .map(String::from)
+    .to_vec();
+    // Every number of digits before and behind the point, up to one too many.
+    for whole in [1_u32, 9, 37, 104_845, 999_999, 8_388_609, 16_777_215, 16_777_217, 99_999_999] {
+        texts.extend((0..12).map(|n| format!("{:.n$}", f64::from(whole) / 10_f64.powi(n as i32))));
+        texts.extend((0..12).map(|n| format!("-{:.n$}", f64::from(whole) / 10_f64.powi(n as i32))));
+    }
+    let mut n_short = 0;
+    for text in &texts {
+        let listed = format!("{text}]");
+        if let Some((value, length)) = short_f32(listed.as_bytes()) {
+            n_short += 1;
+            assert_eq!(length, text.len(), "{text}");
+            assert_eq!(value.to_bits(), text.parse::<f32>().unwrap().to_bits(), "{text}");
+        }
+    }
+    assert!(n_short > 150 && n_short < texts.len(), "{n_short} of {}", texts.len());
+    for other in
+        ["]", "-]", ".]", "-.]", "+1]", "1e3]", "1.2.3]", "--1]", "nan]", "16777217]", "0.00000000001]", "1"]
+    {
+        assert_eq!(short_f32(other.as_bytes()), None, "{other}");
+    }
+}

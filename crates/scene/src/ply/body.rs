@@ -4,10 +4,11 @@ use std::io::Read;
 
 use super::header::{Element, Format, Header, Kind, Property, Type};
 use super::input::Input;
+use super::plain::{self, PlainVertices};
 use super::{EXPORT_AGAIN, Fault, Place, PlyMesh};
 
 /// Numbers one after the other, written in whatever way.
-trait Numbers {
+pub(super) trait Numbers {
     /// The next number. All types of PLY fit into `f64` exactly.
     fn next(&mut self, t: Type) -> Result<f64, Fault>;
     /// Passes over `n` numbers.
@@ -16,6 +17,13 @@ trait Numbers {
     fn place_of_last(&self, t: Type) -> Place;
     /// Something follows that is no blank.
     fn has_more(&mut self) -> Result<bool, Fault>;
+
+    /// Whole rows of `row` bytes that lie ready, at most `n`: of text, whose rows have no such length, and where the file ends, none.
+    fn rows(&mut self, row: usize, n: u64) -> Result<&[u8], Fault>;
+    /// Passes over bytes that [`rows`](Self::rows) has shown.
+    fn pass(&mut self, n_bytes: usize);
+    /// The four bytes of a number in such a row, the lowest first.
+    fn lowest_first(number: [u8; 4]) -> [u8; 4];
 
     /// The length of a list.
     fn count(&mut self, t: Type) -> Result<u64, Fault> {
@@ -85,6 +93,19 @@ impl<R: Read, const BIG: bool> Numbers for Binary<R, BIG> {
     fn has_more(&mut self) -> Result<bool, Fault> {
         Ok(self.0.take::<1>()?.is_some())
     }
+    fn rows(&mut self, row: usize, n: u64) -> Result<&[u8], Fault> {
+        self.0.rows(row, n)
+    }
+    fn pass(&mut self, n_bytes: usize) {
+        self.0.pass(n_bytes);
+    }
+    #[inline]
+    fn lowest_first(mut number: [u8; 4]) -> [u8; 4] {
+        if BIG {
+            number.reverse();
+        }
+        number
+    }
 }
 
 struct Ascii<R>(Input<R>);
@@ -121,6 +142,13 @@ impl<R: Read> Numbers for Ascii<R> {
     }
     fn has_more(&mut self) -> Result<bool, Fault> {
         self.0.skip_blanks()
+    }
+    fn rows(&mut self, _: usize, _: u64) -> Result<&[u8], Fault> {
+        Ok(&[])
+    }
+    fn pass(&mut self, _: usize) {}
+    fn lowest_first(number: [u8; 4]) -> [u8; 4] {
+        number
     }
 }
 
@@ -208,22 +236,7 @@ fn read_vertices(
     mesh.n.reserve_exact(if has_n { n } else { 0 });
     mesh.uv.reserve_exact(if uv.is_some() { n } else { 0 });
     let (mut bad_n, mut bad_uv) = (0u64, 0u64);
-    for i in 0..element.count {
-        let mut v = [0.0f32; 8];
-        for (Property { name, kind }, slot) in element.properties.iter().zip(&slots) {
-            match (kind, slot) {
-                (Kind::Scalar(t), Some(slot)) => {
-                    let x = numbers.next(*t)? as f32;
-                    if !x.is_finite() && *slot < 3 {
-                        let what = format!("`{name}` of vertex {i} is {x}, not a finite number");
-                        return Err(Fault::damaged(numbers.place_of_last(*t), what));
-                    }
-                    v[*slot] = x;
-                }
-                _ => numbers.skip_property(*kind)?,
-            }
-        }
-        let [x, y, z, nx, ny, nz, s, t] = v;
+    let mut push = |[x, y, z, nx, ny, nz, s, t]: [f32; 8]| {
         mesh.p.push([x, y, z]);
         if has_n {
             mesh.n.push(finite_or_zero([nx, ny, nz], &mut bad_n));
@@ -231,10 +244,46 @@ fn read_vertices(
         if uv.is_some() {
             mesh.uv.push(finite_or_zero([s, t], &mut bad_uv));
         }
+    };
+    let plain = PlainVertices::of(element, &slots);
+    let mut i = 0;
+    while i < element.count {
+        if let Some(plain) = &plain {
+            i += plain.read(numbers, element.count - i, &mut push)?;
+            if i == element.count {
+                break;
+            }
+        }
+        push(read_vertex(numbers, element, &slots, i)?);
+        i += 1;
     }
     note(mesh, bad_n, "normals were not finite and became zero");
     note(mesh, bad_uv, "texture coordinates were not finite and became zero");
     Ok(())
+}
+
+/// The numbers of vertex `i`, by slots.
+fn read_vertex(
+    numbers: &mut impl Numbers,
+    element: &Element,
+    slots: &[Option<usize>],
+    i: u64,
+) -> Result<[f32; 8], Fault> {
+    let mut v = [0.0f32; 8];
+    for (Property { name, kind }, slot) in element.properties.iter().zip(slots) {
+        match (kind, slot) {
+            (Kind::Scalar(t), Some(slot)) => {
+                let x = numbers.next(*t)? as f32;
+                if !x.is_finite() && *slot < 3 {
+                    let what = format!("`{name}` of vertex {i} is {x}, not a finite number");
+                    return Err(Fault::damaged(numbers.place_of_last(*t), what));
+                }
+                v[*slot] = x;
+            }
+            _ => numbers.skip_property(*kind)?,
+        }
+    }
+    Ok(v)
 }
 
 fn finite_or_zero<const N: usize>(v: [f32; N], n_bad: &mut u64) -> [f32; N] {
@@ -270,7 +319,16 @@ fn read_faces(
     let (mut corners, mut face_index) = (Vec::new(), 0i32);
     let (mut n_fans, mut n_left_out) = (0u64, 0u64);
     let mut quad_indices = Vec::new();
-    for face in 0..element.count {
+    let plain = plain::has_plain_faces(element) && n_vertices <= 1 << 31;
+    let mut face = 0;
+    while face < element.count {
+        if plain {
+            let (n, triangles) = (element.count - face, &mut mesh.triangles);
+            face += plain::read_triangles(numbers, n, n_vertices as u32, triangles)?;
+            if face == element.count {
+                break;
+            }
+        }
         for (i, property) in element.properties.iter().enumerate() {
             match property.kind {
                 Kind::List { count, item } if i == list => {
@@ -281,6 +339,7 @@ fn read_faces(
                 kind @ (Kind::Scalar(_) | Kind::List { .. }) => numbers.skip_property(kind)?,
             }
         }
+        face += 1;
         match corners[..] {
             [a, b, c] => mesh.triangles.push([a, b, c]),
             [a, b, c, d] => {

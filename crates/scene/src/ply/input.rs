@@ -118,6 +118,18 @@ impl<R: Read> Input<R> {
         Ok(found)
     }
 
+    /// Whole rows of `row` bytes that lie in the buffer, at most `n`; none where fewer bytes are left.
+    pub(super) fn rows(&mut self, row: usize, n: u64) -> Result<&[u8], Fault> {
+        let n_whole = self.fill(row)?.len() / row;
+        let n = usize::try_from(n).map_or(n_whole, |n| n.min(n_whole));
+        Ok(&self.buffer[self.start..self.start + n * row])
+    }
+
+    /// Passes over bytes that lie in the buffer.
+    pub(super) fn pass(&mut self, n_bytes: usize) {
+        self.start += n_bytes;
+    }
+
     /// Passes over `n` bytes; false where fewer are left.
     pub(super) fn skip(&mut self, mut n: u64) -> Result<bool, Fault> {
         while n > 0 {

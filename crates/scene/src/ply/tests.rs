@@ -227,3 +227,75 @@ fn mutated_files_never_panic() {
             .unwrap();
     }
 }
+
+/// A long mesh in the types that everybody writes: vertices with normals, and triangles with now and then another face.
+fn plain(format: &str, position: impl Fn(usize) -> f32, corner: impl Fn(usize) -> i32) -> Vec<u8> {
+    const N: usize = 12_000;
+    let header = "element vertex 12000\nproperty float x\nproperty float y\nproperty float z\nproperty uchar shade\n\
+                  property float nx\nproperty float ny\nproperty float nz\nelement face 12000\n\
+                  property list uchar int vertex_indices\nend_header\n";
+    let mut file = format!("ply\nformat {format} 1.0\n{header}").into_bytes();
+    let mut put = |bytes: &[u8], text: &dyn std::fmt::Display, end: &str| match format {
+        "ascii" => file.extend(format!("{text}{end}").bytes()),
+        "binary_big_endian" => file.extend(bytes.iter().rev()),
+        _ => file.extend(bytes),
+    };
+    for i in 0..N {
+        for (k, v) in [position(i), 0.5, 0.25, -1.0, i as f32, 0.0, 2.0].into_iter().enumerate() {
+            match k {
+                3 => put(&[7], &7, " "),
+                6 => put(&v.to_le_bytes(), &v, "\n"),
+                _ => put(&v.to_le_bytes(), &v, " "),
+            }
+        }
+    }
+    for i in 0..N {
+        let n = if i % 1000 == 999 { 3 + i / 1000 % 3 } else { 3 };
+        put(&[n as u8], &n, " ");
+        (0..n).for_each(|k| {
+            put(&corner(i + k).to_le_bytes(), &corner(i + k), if k + 1 < n { " " } else { "\n" })
+        });
+    }
+    file
+}
+
+#[test]
+fn plain_rows_are_read_as_text_is() {
+    let (position, corner) = (|i| i as f32 * 0.125, |i| (i * 7 % 12_000) as i32);
+    let text = given(&plain("ascii", position, corner)).unwrap();
+    assert_eq!(
+        (text.p.len(), text.n.len(), text.triangles.len(), text.quads.len()),
+        (12_000, 12_000, 12_004, 4)
+    );
+    for format in ["binary_little_endian", "binary_big_endian"] {
+        let file = plain(format, position, corner);
+        assert_eq!(given(&file).unwrap(), text, "{format}");
+        assert_eq!(given(&gzip(&file)).unwrap(), text, "{format}");
+        // Within the last vertex, the first and a later face.
+        for cut in [12_000 * 25 - 3, 12_000 * 25 + 5, 12_000 * 25 + 6000 * 13] {
+            let start = file.windows(11).position(|w| w == b"end_header\n").unwrap() + 11;
+            let e = refusal(&file[..start + cut]);
+            let want = format!("a.ply: byte {}: the file ends before all", start + cut);
+            assert!(e.starts_with(&want), "{format}, {cut}: {e}");
+        }
+    }
+}
+
+#[test]
+fn faults_of_plain_rows_are_named_with_their_place() {
+    let (sound, at) = (|i: usize| (i * 7 % 12_000) as i32, |i: usize| i as f32);
+    for format in ["binary_little_endian", "binary_big_endian"] {
+        let file = plain(format, at, sound);
+        let start = file.windows(11).position(|w| w == b"end_header\n").unwrap() + 11;
+        let e = refusal(&plain(format, |i| if i == 7000 { f32::NAN } else { at(i) }, sound));
+        let want =
+            format!("a.ply: byte {}: `x` of vertex 7000 is NaN, not a finite number", start + 7000 * 25);
+        assert!(e.starts_with(&want), "{e}");
+        for bad in [-1, 12_000, i32::MIN] {
+            let e = refusal(&plain(format, at, |i| if i == 500 { bad } else { sound(i) }));
+            let place = start + 12_000 * 25 + 498 * 13 + 9;
+            let want = format!("a.ply: byte {place}: face 498 names vertex {bad}, but there are 12000");
+            assert!(e.starts_with(&want), "{e}");
+        }
+    }
+}

@@ -81,13 +81,12 @@ impl<'a> Binary<'a> {
         let at = self.nodes.len();
         self.nodes.push(BinaryNode { bounds, count: 0, right: 0, kinds: Kinds::Mixed });
         if parallel {
-            let (mut a, mut b) = (Binary::new(self.progress), Binary::new(self.progress));
+            let mut b = Binary::new(self.progress);
             let told = |tree: &mut Binary<'a>, side| {
                 fill(tree, side);
                 tree.tell();
             };
-            rayon::join(|| told(&mut a, Side::Left(left)), || told(&mut b, Side::Right(right)));
-            self.append(a);
+            rayon::join(|| told(self, Side::Left(left)), || told(&mut b, Side::Right(right)));
             self.nodes[at].right = (self.nodes.len() - at) as u32;
             self.append(b);
         } else {

@@ -1,6 +1,9 @@
 //! From the binary tree to the wide one, at the least cost that its cuts allow: [`Plan`]. [Ylitie2017]
 
+use rayon::prelude::*;
+
 use super::super::node::{Child, Kind, Node, WIDTH};
+use super::super::pages::Pages;
 use super::binary::{Binary, BinaryNode, Kinds};
 
 /// What a subtree costs at best, in the units of the heuristic, as one child of a wide node up to as many as it has.
@@ -118,20 +121,35 @@ impl<'a> Plan<'a> {
     }
 }
 
-/// The wide tree before the blocks of its leaves exist.
-#[derive(Default)]
-pub(super) struct Wide {
-    pub(super) nodes: Vec<Node>,
-    /// First place and length among the numbers of primitives, for each block of triangles.
-    pub(super) triangles: Vec<(u32, u8)>,
-    /// Entries the stack of a traversal may need.
-    pub(super) stack: usize,
+/// A subtree of the binary tree: its node, its first primitive, and the entries that may lie on the stack by then.
+#[derive(Clone, Copy)]
+struct Subtree {
+    at: usize,
+    first: usize,
+    stack: usize,
 }
 
-impl Wide {
-    /// Adds the subtree at `at`, whose primitives begin at `first`; `stack` entries may lie on the stack by then.
-    pub(super) fn add(&mut self, plan: &Plan, at: usize, first: usize, stack: usize) -> Child {
+/// A part of the wide tree, numbered from its own beginning.
+#[derive(Default)]
+struct Part {
+    nodes: Vec<Node>,
+    triangles: Vec<(u32, u8)>,
+    stack: usize,
+}
+
+impl Part {
+    /// Adds a subtree, but for those below it that `leave` has a child for.
+    fn add(
+        &mut self,
+        plan: &Plan,
+        tree: Subtree,
+        leave: &mut impl FnMut(&BinaryNode, Subtree) -> Option<Child>,
+    ) -> Child {
+        let Subtree { at, first, stack } = tree;
         let node = &plan.tree.nodes[at];
+        if let Some(child) = leave(node, tree) {
+            return child;
+        }
         if plan.is_leaf(at) {
             if node.kinds == Kinds::One(Kind::Others) {
                 return Child::new(Kind::Others, plan.tree.ids[first] as usize);
@@ -149,9 +167,78 @@ impl Wide {
         let stack = stack + children.len() - 1;
         self.stack = self.stack.max(stack);
         for (slot, (at, first)) in children.into_iter().enumerate() {
-            let child = self.add(plan, at, first, stack);
+            let child = self.add(plan, Subtree { at, first, stack }, leave);
             self.nodes[i].set(slot, plan.tree.nodes[at].bounds.to_aabb(), child);
         }
         Child::new(Kind::Node, i)
+    }
+}
+
+/// Primitives of the largest part that one thread makes.
+const PART: usize = 1 << 12;
+
+/// The wide tree before the blocks of its leaves exist.
+pub(super) struct Wide {
+    /// Each before its children.
+    pub(super) nodes: Pages<Node>,
+    /// First place and length among the numbers of primitives, for each block of triangles.
+    pub(super) triangles: Vec<(u32, u8)>,
+    /// The whole tree, as if it were a child.
+    pub(super) root: Child,
+    /// Entries the stack of a traversal may need.
+    pub(super) stack: usize,
+}
+
+impl Wide {
+    /// Nodes over large subtrees come first; the others are made in parts, side by side, and put behind them.
+    pub(super) fn new(plan: &Plan) -> Wide {
+        let mut subtrees = Vec::new();
+        let mut top = Part::default();
+        // Until it has its place, a part is a leaf with its number: there are no others at the top.
+        let root = top.add(plan, Subtree { at: 0, first: 0, stack: 0 }, &mut |node, tree| {
+            let small = node.count as usize <= PART;
+            small.then(|| subtrees.push(tree)).map(|()| Child::new(Kind::Triangles, subtrees.len() - 1))
+        });
+        let make = |tree: &Subtree| {
+            let mut part = Part::default();
+            let root = part.add(plan, *tree, &mut |_, _| None);
+            (part, root)
+        };
+        let parts: Vec<(Part, Child)> = subtrees.par_iter().map(make).collect();
+
+        let (mut n_nodes, mut n_blocks) = (top.nodes.len(), 0);
+        let mut moves = Vec::with_capacity(parts.len());
+        for (part, _) in &parts {
+            moves.push([n_nodes, n_blocks]);
+            n_nodes += part.nodes.len();
+            n_blocks += part.triangles.len();
+        }
+        let placed = |child: Child| match child.index() {
+            part if child.is_leaf() && child != Child::NONE => parts[part].1.moved(moves[part]),
+            _ => child,
+        };
+        let mut nodes = Pages::zeroed(n_nodes);
+        let (to_top, mut rest) = nodes.split_at_mut(top.nodes.len());
+        copy(&top.nodes, to_top, placed);
+        let places: Vec<&mut [Node]> = parts
+            .iter()
+            .map(|(part, _)| rest.split_off_mut(..part.nodes.len()).unwrap_or_default())
+            .collect();
+        let all = parts.par_iter().zip(places).zip(&moves);
+        all.for_each(|(((part, _), to), by)| copy(&part.nodes, to, |child| child.moved(*by)));
+        Wide {
+            nodes,
+            triangles: parts.iter().flat_map(|(part, _)| &part.triangles).copied().collect(),
+            root: placed(root),
+            stack: parts.iter().map(|(part, _)| part.stack).fold(top.stack, usize::max),
+        }
+    }
+}
+
+/// Copies nodes, with other children.
+fn copy(from: &[Node], to: &mut [Node], child: impl Fn(Child) -> Child) {
+    for (from, to) in from.iter().zip(to) {
+        *to = *from;
+        to.child = to.child.map(&child);
     }
 }

@@ -15,7 +15,7 @@ use sparrow_math::Aabb;
 use self::binary::Binary;
 use self::bins::{Extent, Range};
 use self::collapse::{Plan, Wide};
-pub(crate) use self::prim::PrimRef;
+pub(crate) use self::prim::{Box4, PrimRef};
 use self::spatial::{References, Spatial};
 use super::Bvh;
 use super::block::TriBlock;
@@ -42,7 +42,6 @@ fn overlap(prims: &[PrimRef], area: f32) -> f32 {
 struct Tree {
     ids: Vec<u32>,
     wide: Wide,
-    root: Child,
     bounds: Aabb,
 }
 
@@ -70,10 +69,9 @@ impl Tree {
             }
         }
         tree.tell();
-        let mut wide = Wide::default();
-        let root = wide.add(&Plan::new(&tree), 0, 0, 0);
+        let wide = Wide::new(&Plan::new(&tree));
         debug_assert!(wide.stack <= STACK_SIZE, "depth is limited");
-        Some(Tree { ids: tree.ids, wide, root, bounds: extent.bounds.to_aabb() })
+        Some(Tree { ids: tree.ids, wide, bounds: extent.bounds.to_aabb() })
     }
     /// Leaves that hold triangles.
     fn n_blocks(&self) -> usize {
@@ -112,8 +110,7 @@ impl Bvh {
         };
         let mut triangles = Pages::zeroed(tree.n_blocks());
         tree.gather(&mut triangles, TriBlock::empty, |block, i, id| block.set(i, id, &corners(id)));
-        let mut nodes = Pages::zeroed(tree.wide.nodes.len());
-        nodes.copy_from_slice(&tree.wide.nodes);
-        Bvh { nodes, triangles, root: tree.root, bounds: tree.bounds, unit }
+        let Wide { nodes, root, .. } = tree.wide;
+        Bvh { nodes, triangles, root, bounds: tree.bounds, unit }
     }
 }

@@ -66,8 +66,8 @@ impl MotionBvh {
         let mut triangles = Pages::zeroed(tree.n_blocks());
         tree.gather(&mut triangles, MotionBlock::empty, |block, i, id| block.set(i, id, &corners(id)));
         let nodes = nodes(&tree.wide.nodes, leaf);
-        let [start, end] =
-            if tree.root.is_leaf() { leaf(tree.root) } else { nodes[tree.root.index()].around() };
-        Bvh { nodes, triangles, root: tree.root, bounds: start.union(end), unit }
+        let root = tree.wide.root;
+        let [start, end] = if root.is_leaf() { leaf(root) } else { nodes[root.index()].around() };
+        Bvh { nodes, triangles, root, bounds: start.union(end), unit }
     }
 }

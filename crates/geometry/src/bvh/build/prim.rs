@@ -7,17 +7,22 @@ use super::super::node::Kind;
 
 /// A box in two registers; the fourth lanes are not part of it.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Box4 {
-    pub(super) lo: f32x4,
-    pub(super) hi: f32x4,
+pub(crate) struct Box4 {
+    pub(crate) lo: f32x4,
+    pub(crate) hi: f32x4,
 }
 
 impl Box4 {
-    pub(super) const EMPTY: Box4 =
+    pub(crate) const EMPTY: Box4 =
         Box4 { lo: f32x4::new([f32::INFINITY; 4]), hi: f32x4::new([f32::NEG_INFINITY; 4]) };
 
     #[inline(always)]
-    pub(super) fn union(self, o: Box4) -> Box4 {
+    pub(crate) fn of(b: &Aabb) -> Box4 {
+        let wide = |v: Vec3<f32>| f32x4::new([v.x, v.y, v.z, 0.0]);
+        Box4 { lo: wide(b.lo), hi: wide(b.hi) }
+    }
+    #[inline(always)]
+    pub(crate) fn union(self, o: Box4) -> Box4 {
         Box4 { lo: self.lo.fast_min(o.lo), hi: self.hi.fast_max(o.hi) }
     }
     #[inline(always)]
@@ -25,12 +30,12 @@ impl Box4 {
         Box4 { lo: self.lo.fast_max(o.lo), hi: self.hi.fast_min(o.hi) }
     }
     #[inline(always)]
-    pub(super) fn grow(self, p: f32x4) -> Box4 {
+    pub(crate) fn grow(self, p: f32x4) -> Box4 {
         Box4 { lo: self.lo.fast_min(p), hi: self.hi.fast_max(p) }
     }
     /// Half of the surface area; 0 where it is empty.
     #[inline(always)]
-    pub(super) fn half_area(self) -> f32 {
+    pub(crate) fn half_area(self) -> f32 {
         let [x, y, z, _] = (self.hi - self.lo).to_array();
         if x >= 0.0 && y >= 0.0 && z >= 0.0 { x * y + y * z + z * x } else { 0.0 }
     }
@@ -58,6 +63,13 @@ pub(super) fn widened(b: Aabb) -> Aabb {
 }
 
 impl PrimRef {
+    /// In the place of one that cannot be hit. It goes into no tree.
+    pub(crate) const NONE: PrimRef = PrimRef { lo: [0.0; 4], hi: [0.0; 4] };
+
+    pub(crate) fn is_none(&self) -> bool {
+        self.lo[3].to_bits() & NORMAL == 0
+    }
+
     /// A primitive with its box, [`widened`].
     pub(crate) fn new(id: u32, b: Aabb, kind: Kind) -> PrimRef {
         let b = widened(b);
