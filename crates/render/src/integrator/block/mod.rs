@@ -31,7 +31,7 @@ pub(crate) use self::column::{Column, pad};
 use self::escapes::Escapes;
 use self::families::Families;
 use self::fresh::Fresh;
-use self::groups::Groups;
+use self::groups::{Groups, Joined};
 use self::lamps::Lamps;
 use self::paths::{Paths, Steps};
 use self::shadow::Shadows;
@@ -48,6 +48,11 @@ const N_PATHS: usize = 1024;
 /// In a small scene, which leaves them all of the cache.
 const N_PATHS_OF_ROOM: usize = 2048;
 
+/// Most shapes for which vertices are put together by shape: fewer than there are paths, so that many meet the same.
+const FEW_SHAPES: usize = 64;
+/// What stands for the shape where a path ends.
+const ENDED: u8 = u8::MAX;
+
 /// Paths side by side, and room for what happens at their vertices.
 pub(crate) struct Block<'a, R> {
     fresh: Fresh<'a>,
@@ -62,6 +67,7 @@ pub(crate) struct Block<'a, R> {
     lamps: Lamps,
     escapes: Escapes,
     groups: Groups,
+    joined: Joined,
     batch: Batch,
     shadows: Shadows,
     rays: RayCounts,
@@ -80,6 +86,7 @@ impl<R: Record + Default> Default for Block<'_, R> {
             lamps: Lamps::default(),
             escapes: Escapes::default(),
             groups: Groups::default(),
+            joined: Joined::default(),
             batch: Batch::default(),
             shadows: Shadows::default(),
             rays: RayCounts::default(),
@@ -103,7 +110,7 @@ impl<'a, R: Record + Default> Block<'a, R> {
             self.emitted(scene, &how);
             self.branch(scene, tile.plan, &how, sampler);
             self.group(scene, sampler, &how);
-            for (key, which) in self.groups.parts(BATCH) {
+            for (key, which) in self.joined.parts(BATCH) {
                 if key == batch::passes(scene) {
                     pass(scene, &mut self.paths.ray, &self.hits, which);
                     continue;
@@ -207,25 +214,37 @@ impl<'a, R: Record + Default> Block<'a, R> {
         }
     }
 
-    /// Paths end, pass through, or have a vertex: these are put together by material.
+    /// Paths end, pass through, or have a vertex: these are put together by material, and where shapes are few, among those by shape.
     fn group(&mut self, scene: &Scene, sampler: &Sampler, how: &PathIntegrator) {
-        let Block { paths, groups, ended, hits, .. } = self;
-        let passes = batch::passes(scene);
-        groups.clear(passes as usize + 1);
-        for ((hit, steps), i) in hits.iter().zip(&paths.steps).zip(0..) {
-            let Steps { depth, n_smooth, .. } = *steps;
-            let deep = depth == how.max_depth || n_smooth == how.max_smooth;
-            let Some(hit) = hit.as_ref().filter(|_| !deep) else {
-                ended.push(i);
-                continue;
+        let Block { paths, groups, joined, ended, hits, .. } = self;
+        let deep = |s: &Steps| (s.depth == how.max_depth) | (s.n_smooth == how.max_smooth);
+        let regularized = |s: &Steps| how.regularize & (s.n_smooth > 0);
+        let key = |shape: u32, regularized: bool| {
+            scene.material_of(shape).map_or(batch::passes(scene), |material| batch::key(material, regularized))
+        };
+        if scene.n_shapes() <= FEW_SHAPES && !sampler.has_tables() {
+            let key_of_shape = |(hit, steps): (&Option<Hit>, &Steps)| match hit {
+                Some(hit) if !deep(steps) => 2 * hit.shape as u8 + u8::from(regularized(steps)),
+                _ => ENDED,
             };
-            let regularized = how.regularize && n_smooth > 0;
-            let material = scene.material_of(hit.shape);
-            groups.push(material.map_or(passes, |material| batch::key(material, regularized)), i);
+            joined.sort(hits.iter().zip(&paths.steps).map(key_of_shape), |by_shape| match by_shape {
+                ENDED => u32::MAX,
+                _ => key(u32::from(by_shape) / 2, by_shape % 2 == 1),
+            });
+            ended.extend_from_slice(joined.pop(u32::MAX));
+            return;
+        }
+        groups.clear(batch::passes(scene) as usize + 1);
+        for ((hit, steps), i) in hits.iter().zip(&paths.steps).zip(0..) {
+            match hit {
+                Some(hit) if !deep(steps) => groups.push(key(hit.shape, regularized(steps)), i),
+                _ => ended.push(i),
+            }
         }
         if sampler.has_tables() {
             groups.sort_by_depth(|i| paths.steps[i as usize].depth);
         }
+        joined.fill(groups);
     }
 
     /// Hands over the light of paths that have ended, whose places are free.
