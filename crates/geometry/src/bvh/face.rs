@@ -61,8 +61,8 @@ pub(crate) struct Wall {
     pub(crate) depth: Repeated,
     /// The longer diagonal.
     pub(crate) across: f32,
-    /// As in [`Extent`].
-    pub(crate) place: u32,
+    /// The places of its triangles, as bits: of the one whose first coordinate is the larger, and of the other.
+    pub(crate) places: [Repeated; 2],
 }
 
 /// An axis of space.
@@ -140,7 +140,7 @@ impl Frame {
             margin: if dx[0] < dy[0] { dy } else { dx },
             depth,
             across,
-            place,
+            places: [place, place + 1].map(|place| [f32::from_bits(place); RAYS]),
         })
     }
 }

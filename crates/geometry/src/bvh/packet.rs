@@ -158,7 +158,11 @@ impl<S: Simd> Seen<S> {
 
 /// A coordinate of lines, given as moments and directions.
 #[inline(always)]
-fn line<S: Simd>([m, d]: [Vectors<S>; 2], of_moment: &RepeatedVector, of_direction: &RepeatedVector) -> S::F8 {
+fn line<S: Simd>(
+    [m, d]: [Vectors<S>; 2],
+    of_moment: &RepeatedVector,
+    of_direction: &RepeatedVector,
+) -> S::F8 {
     dot::<S>(load::<S>(of_moment), m) - dot::<S>(load::<S>(of_direction), d)
 }
 
@@ -192,14 +196,15 @@ impl<S: Simd> Nearest<S> {
     #[inline(always)]
     fn wall<const ANY: bool>(&mut self, rays: &Packet<S>, f: &Wall) {
         let (zero, one) = (S::F8::splat(0.0), S::F8::splat(1.0));
-        let [axis, i, j] = f.axes.map(|axis| axis as usize);
+        let (axis, i, j) = (f.axes[0] as usize, f.axes[1] as usize, f.axes[2] as usize);
         let height = S::F8::load(&f.center[0]) - rays.o[axis];
         let (x0, y0) = (rays.o[i] - S::F8::load(&f.center[1]), rays.o[j] - S::F8::load(&f.center[2]));
         let t = height * rays.inv[axis];
         let x = (x0 + t * rays.d[i]) * S::F8::load(&f.scales[0]);
         let y = (y0 + t * rays.d[j]) * S::F8::load(&f.scales[1]);
         let off = x.abs().max(y.abs());
-        let (margin, dt) = (rays.aside[axis] * S::F8::load(&f.margin), rays.late[axis] * S::F8::load(&f.depth));
+        let (margin, dt) =
+            (rays.aside[axis] * S::F8::load(&f.margin), rays.late[axis] * S::F8::load(&f.depth));
         let met = off.le(one + margin) & zero.lt(t) & (t - dt).le(self.t[1]);
         if ANY {
             if met.any() {
@@ -213,7 +218,7 @@ impl<S: Simd> Nearest<S> {
             let taken = met & (t + dt).lt(self.t[0]);
             self.take::<ANY>(met, taken);
             self.face = self.face | taken;
-            let place = number::<S>(f.place + 1).only_where(x.lt(y), number::<S>(f.place));
+            let place = S::F8::load(&f.places[1]).only_where(x.lt(y), S::F8::load(&f.places[0]));
             self.put(taken, [t - dt, t + dt], place);
         }
     }
@@ -392,26 +397,24 @@ pub(crate) struct Eight {
 }
 
 impl Eight {
-    /// Ray i met something.
+    /// The rays that met something.
     #[inline(always)]
-    pub(crate) fn met(&self, i: usize) -> bool {
-        self.hit >> i & 1 == 1
-    }
-    /// The same for each ray.
-    #[inline(always)]
-    pub(crate) fn which(&self) -> [bool; RAYS] {
+    pub(crate) fn met(&self) -> [bool; RAYS] {
         // A bit for a byte.
         let bits = u64::from(self.hit) * 0x0101_0101_0101_0101 & 0x8040_2010_0804_0201;
         bits.to_le_bytes().map(|b| b != 0)
     }
-    /// What ray i met, if it did.
+    /// All met something.
     #[inline(always)]
-    pub(crate) fn get(&self, i: usize) -> Option<Hit> {
+    pub(crate) fn all_met(&self) -> bool {
+        self.hit == (1 << RAYS) - 1
+    }
+    /// What ray i met, if it did, else nothing of use.
+    #[inline(always)]
+    pub(crate) fn get(&self, i: usize) -> Hit {
         let (row, at) = (&self.rows[i % 4], i & 4);
         let [t, shape, prim, u] = [row[at], row[at + 1], row[at + 2], row[at + 3]];
-        let hit =
-            Hit { t, shape: shape.to_bits(), prim: prim.to_bits(), u, v: self.v[i % RAYS], instance: None };
-        self.met(i).then_some(hit)
+        Hit { t, shape: shape.to_bits(), prim: prim.to_bits(), u, v: self.v[i % RAYS], instance: None }
     }
 }
 

@@ -22,8 +22,13 @@ impl Answers for Nearest<'_> {
     // Read from memory in rows, which the compiler would otherwise take to pieces.
     #[inline(never)]
     fn eight(&mut self, first: usize, hits: &Eight) {
-        for (i, out) in self.out[first..first + RAYS].iter_mut().enumerate() {
-            *out = hits.get(i);
+        let out = &mut self.out[first..first + RAYS];
+        for (i, out) in out.iter_mut().enumerate() {
+            *out = Some(hits.get(i));
+        }
+        // Seldom, so that the numbers above are copied without asking.
+        if !hits.all_met() {
+            out.iter_mut().zip(hits.met()).filter(|(_, met)| !met).for_each(|(out, _)| *out = None);
         }
     }
 }
@@ -38,7 +43,7 @@ impl Answers for Any<'_> {
     }
     #[inline(always)]
     fn eight(&mut self, first: usize, hits: &Eight) {
-        self.0[first..first + RAYS].copy_from_slice(&hits.which());
+        self.0[first..first + RAYS].copy_from_slice(&hits.met());
     }
 }
 

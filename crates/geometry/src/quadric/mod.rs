@@ -88,7 +88,11 @@ impl Quadric {
 
     /// The ball that this is, if it is a whole sphere.
     pub(crate) fn whole(&self) -> Option<bvh::Ball> {
-        self.ball.map(|b| bvh::Ball { center: b.center.to_f32().to_array(), radius: b.radius as f32, whole: true })
+        self.ball.map(|b| bvh::Ball {
+            center: b.center.to_f32().to_array(),
+            radius: b.radius as f32,
+            whole: true,
+        })
     }
 
     fn to_local(&self, ray: &Ray) -> (Vec3<f64>, Vec3<f64>) {

@@ -89,6 +89,7 @@ impl Joined {
             }
         }
         numbers.resize(keys.len(), 0);
+        let numbers = &mut numbers[..];
         for (i, &key) in (0..).zip(&*keys) {
             let place = &mut places[usize::from(key)];
             numbers[*place] = i;
@@ -133,7 +134,10 @@ mod tests {
             assert_eq!(joined.parts(3).collect::<Vec<_>>(), found);
             joined.sort([3, 1, 3, 4, 1, 3, 3].into_iter(), |key| u32::from(key % 3));
             assert_eq!(joined.pop(0), []);
-            assert_eq!(joined.parts(3).collect::<Vec<_>>(), [(0, &[0, 2, 5][..]), (0, &[6]), (1, &[1, 4, 3])]);
+            assert_eq!(
+                joined.parts(3).collect::<Vec<_>>(),
+                [(0, &[0, 2, 5][..]), (0, &[6]), (1, &[1, 4, 3])]
+            );
             assert_eq!(joined.pop(1), [1, 4, 3]);
             assert_eq!(joined.parts(4).collect::<Vec<_>>(), [(0, &[0, 2, 5, 6][..])]);
         }

@@ -217,15 +217,18 @@ impl<'a, R: Record + Default> Block<'a, R> {
     /// Paths end, pass through, or have a vertex: these are put together by material, and where shapes are few, among those by shape.
     fn group(&mut self, scene: &Scene, sampler: &Sampler, how: &PathIntegrator) {
         let Block { paths, groups, joined, ended, hits, .. } = self;
-        let deep = |s: &Steps| (s.depth == how.max_depth) | (s.n_smooth == how.max_smooth);
-        let regularized = |s: &Steps| how.regularize & (s.n_smooth > 0);
+        let PathIntegrator { max_depth, max_smooth, regularize, .. } = *how;
+        let deep = move |s: &Steps| (s.depth == max_depth) | (s.n_smooth == max_smooth);
+        let regularized = move |s: &Steps| regularize & (s.n_smooth > 0);
         let key = |shape: u32, regularized: bool| {
-            scene.material_of(shape).map_or(batch::passes(scene), |material| batch::key(material, regularized))
+            scene
+                .material_of(shape)
+                .map_or(batch::passes(scene), |material| batch::key(material, regularized))
         };
         if scene.n_shapes() <= FEW_SHAPES && !sampler.has_tables() {
-            let key_of_shape = |(hit, steps): (&Option<Hit>, &Steps)| match hit {
-                Some(hit) if !deep(steps) => 2 * hit.shape as u8 + u8::from(regularized(steps)),
-                _ => ENDED,
+            let key_of_shape = move |(hit, steps): (&Option<Hit>, &Steps)| {
+                let by_shape = hit.map_or(ENDED, |hit| 2 * hit.shape as u8 + u8::from(regularized(steps)));
+                if deep(steps) { ENDED } else { by_shape }
             };
             joined.sort(hits.iter().zip(&paths.steps).map(key_of_shape), |by_shape| match by_shape {
                 ENDED => u32::MAX,
