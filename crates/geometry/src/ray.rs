@@ -49,9 +49,9 @@ impl Ray {
 }
 
 /// Where a ray meets a primitive.
-// In this order packets have the numbers of a hit, which are then copied together.
+// As large as a power of two, so that lists of hits are looked up in quickly.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[repr(C, align(16))]
+#[repr(align(16))]
 pub struct Hit {
     /// Parameter along the ray.
     pub t: f32,

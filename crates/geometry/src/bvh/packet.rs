@@ -401,20 +401,17 @@ impl Eight {
     #[inline(always)]
     pub(crate) fn met(&self) -> [bool; RAYS] {
         // A bit for a byte.
-        let bits = u64::from(self.hit) * 0x0101_0101_0101_0101 & 0x8040_2010_0804_0201;
+        let bits = (u64::from(self.hit) * 0x0101_0101_0101_0101) & 0x8040_2010_0804_0201;
         bits.to_le_bytes().map(|b| b != 0)
     }
-    /// All met something.
+    /// What ray i met, if it did.
     #[inline(always)]
-    pub(crate) fn all_met(&self) -> bool {
-        self.hit == (1 << RAYS) - 1
-    }
-    /// What ray i met, if it did, else nothing of use.
-    #[inline(always)]
-    pub(crate) fn get(&self, i: usize) -> Hit {
+    pub(crate) fn get(&self, i: usize) -> Option<Hit> {
         let (row, at) = (&self.rows[i % 4], i & 4);
         let [t, shape, prim, u] = [row[at], row[at + 1], row[at + 2], row[at + 3]];
-        Hit { t, shape: shape.to_bits(), prim: prim.to_bits(), u, v: self.v[i % RAYS], instance: None }
+        let hit =
+            Hit { t, shape: shape.to_bits(), prim: prim.to_bits(), u, v: self.v[i % RAYS], instance: None };
+        (self.hit >> i & 1 == 1).then_some(hit)
     }
 }
 

@@ -22,13 +22,8 @@ impl Answers for Nearest<'_> {
     // Read from memory in rows, which the compiler would otherwise take to pieces.
     #[inline(never)]
     fn eight(&mut self, first: usize, hits: &Eight) {
-        let out = &mut self.out[first..first + RAYS];
-        for (i, out) in out.iter_mut().enumerate() {
-            *out = Some(hits.get(i));
-        }
-        // Seldom, so that the numbers above are copied without asking.
-        if !hits.all_met() {
-            out.iter_mut().zip(hits.met()).filter(|(_, met)| !met).for_each(|(out, _)| *out = None);
+        for (i, out) in self.out[first..first + RAYS].iter_mut().enumerate() {
+            *out = hits.get(i);
         }
     }
 }

@@ -5,7 +5,7 @@ use sparrow_math::{InLanes, Real, Vec3, in_lanes, vec3};
 use sparrow_mis::Mis;
 use sparrow_spectra::{N_LAMBDA, Spectrum};
 
-use super::column::{BATCH, Column, load, padded, spectrum, store_spectrum, store_vector, vector};
+use super::column::{Column, load, padded, spectrum, store_spectrum, store_vector, vector};
 use super::lights::LightSamples;
 use super::paths::Paths;
 use super::vertices::Vertices;
@@ -73,13 +73,13 @@ impl Shadows {
         self.places.clear();
         self.places.resize(n, nowhere);
         let (mut next, pending) = (0, &mut self.pending[first..room]);
-        for k in lights.order.iter().map(|k| *k as usize % BATCH) {
-            let lit = out.lit[k] > 0.0;
-            self.places[k] = if lit { next } else { nowhere };
-            // The next one takes the place of what is not lit: a branch here could not be foreseen.
-            pending[next as usize] =
-                Pending { path: vertices.paths()[k], depth: vertices.depth[k], weight: out.weight[k] };
-            next += u32::from(lit);
+        for k in lights.order.iter().map(|k| *k as usize) {
+            if out.lit[k] > 0.0 {
+                self.places[k] = next;
+                let path = vertices.paths()[k];
+                pending[next as usize] = Pending { path, depth: vertices.depth[k], weight: out.weight[k] };
+                next += 1;
+            }
         }
         self.n += next as usize;
         let (rays, arrives) = (Ray::rows_mut(&mut self.rays[first..]), &mut self.arrives[first..]);
