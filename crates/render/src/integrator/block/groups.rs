@@ -48,9 +48,7 @@ impl Groups {
 /// Groups put together once more.
 #[derive(Default)]
 pub(super) struct Joined {
-    /// The key of each number, where these are sorted.
-    keys: Vec<u8>,
-    /// Groups in the order in which they follow each other.
+    /// Places of the groups in the order in which they follow each other.
     order: Vec<usize>,
     /// The numbers of all groups.
     numbers: Vec<u32>,
@@ -59,52 +57,22 @@ pub(super) struct Joined {
 }
 
 impl Joined {
-    /// Takes groups as they are.
-    pub(super) fn fill(&mut self, groups: &Groups) {
-        self.numbers.clear();
-        self.ends.clear();
-        for (&key, group) in groups.keys.iter().zip(&groups.groups) {
-            self.numbers.extend_from_slice(group);
-            self.ends.push((key, self.numbers.len()));
-        }
-    }
-    /// Numbers from zero on, of which there are `keys`, put together by what `of` gives for these, and among those by key.
-    pub(super) fn sort(&mut self, keys_of_all: impl Iterator<Item = u8>, of: impl Fn(u8) -> u32) {
-        let Joined { keys, order, numbers, ends } = self;
-        keys.clear();
-        keys.extend(keys_of_all);
-        let mut places = [0; 256];
-        keys.iter().for_each(|&key| places[usize::from(key)] += 1);
-        order.clear();
-        order.extend((0..places.len()).filter(|&key| places[key] > 0));
-        order.sort_unstable_by_key(|&key| (of(key as u8), key));
+    /// Joins groups for whose keys `of` gives the same.
+    pub(super) fn fill(&mut self, groups: &Groups, of: impl Fn(u32) -> u32) {
+        let Joined { order, numbers, ends } = self;
+        numbers.clear();
         ends.clear();
-        let mut end = 0;
-        for &key in &*order {
-            end += core::mem::replace(&mut places[key], end);
-            let common = of(key as u8);
+        order.clear();
+        order.extend(0..groups.keys.len());
+        order.sort_unstable_by_key(|&g| (of(groups.keys[g]), g));
+        for &g in &*order {
+            numbers.extend_from_slice(&groups.groups[g]);
+            let (common, end) = (of(groups.keys[g]), numbers.len());
             match ends.last_mut() {
                 Some(last) if last.0 == common => last.1 = end,
                 _ => ends.push((common, end)),
             }
         }
-        numbers.resize(keys.len(), 0);
-        let numbers = &mut numbers[..];
-        for (i, &key) in (0..).zip(&*keys) {
-            let place = &mut places[usize::from(key)];
-            numbers[*place] = i;
-            *place += 1;
-        }
-    }
-    /// Takes away the last group, if `of` gave this for it.
-    pub(super) fn pop(&mut self, common: u32) -> &[u32] {
-        let Some(&(last, end)) = self.ends.last() else { return &[] };
-        if last != common {
-            return &[];
-        }
-        self.ends.pop();
-        let begin = self.ends.last().map_or(0, |&(_, end)| end);
-        &self.numbers[begin..end]
     }
     /// What was joined, in parts where it is longer than `size`, each with what `of` gave.
     pub(super) fn parts(&self, size: usize) -> impl Iterator<Item = (u32, &[u32])> {
@@ -130,16 +98,9 @@ mod tests {
             groups.sort_by_depth(depth);
             let found: Vec<_> = groups.parts(3).collect();
             assert_eq!(found, [(3, &[0, 2, 6][..]), (3, &[5]), (1, &[1, 4]), (4, &[3])]);
-            joined.fill(&groups);
-            assert_eq!(joined.parts(3).collect::<Vec<_>>(), found);
-            joined.sort([3, 1, 3, 4, 1, 3, 3].into_iter(), |key| u32::from(key % 3));
-            assert_eq!(joined.pop(0), []);
-            assert_eq!(
-                joined.parts(3).collect::<Vec<_>>(),
-                [(0, &[0, 2, 5][..]), (0, &[6]), (1, &[1, 4, 3])]
-            );
-            assert_eq!(joined.pop(1), [1, 4, 3]);
-            assert_eq!(joined.parts(4).collect::<Vec<_>>(), [(0, &[0, 2, 5, 6][..])]);
+            joined.fill(&groups, |key| key % 3);
+            let found: Vec<_> = joined.parts(3).collect();
+            assert_eq!(found, [(0, &[0, 2, 6][..]), (0, &[5]), (1, &[1, 4, 3])]);
         }
     }
 }

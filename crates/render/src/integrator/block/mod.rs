@@ -50,8 +50,6 @@ const N_PATHS_OF_ROOM: usize = 2048;
 
 /// Most shapes for which vertices are put together by shape: fewer than there are paths, so that many meet the same.
 const FEW_SHAPES: usize = 64;
-/// What stands for the shape where a path ends.
-const ENDED: u8 = u8::MAX;
 
 /// Paths side by side, and room for what happens at their vertices.
 pub(crate) struct Block<'a, R> {
@@ -220,34 +218,27 @@ impl<'a, R: Record + Default> Block<'a, R> {
         let PathIntegrator { max_depth, max_smooth, regularize, .. } = *how;
         let deep = move |s: &Steps| (s.depth == max_depth) | (s.n_smooth == max_smooth);
         let regularized = move |s: &Steps| regularize & (s.n_smooth > 0);
-        let key = |shape: u32, regularized: bool| {
+        let of_material = |shape: u32, regularized: bool| {
             scene
                 .material_of(shape)
                 .map_or(batch::passes(scene), |material| batch::key(material, regularized))
         };
-        if scene.n_shapes() <= FEW_SHAPES && !sampler.has_tables() {
-            let key_of_shape = move |(hit, steps): (&Option<Hit>, &Steps)| {
-                let by_shape = hit.map_or(ENDED, |hit| 2 * hit.shape as u8 + u8::from(regularized(steps)));
-                if deep(steps) { ENDED } else { by_shape }
-            };
-            joined.sort(hits.iter().zip(&paths.steps).map(key_of_shape), |by_shape| match by_shape {
-                ENDED => u32::MAX,
-                _ => key(u32::from(by_shape) / 2, by_shape % 2 == 1),
-            });
-            ended.extend_from_slice(joined.pop(u32::MAX));
-            return;
-        }
-        groups.clear(batch::passes(scene) as usize + 1);
+        let by_shape = scene.n_shapes() <= FEW_SHAPES && !sampler.has_tables();
+        groups.clear(if by_shape { 2 * scene.n_shapes() } else { batch::passes(scene) as usize + 1 });
         for ((hit, steps), i) in hits.iter().zip(&paths.steps).zip(0..) {
-            match hit {
-                Some(hit) if !deep(steps) => groups.push(key(hit.shape, regularized(steps)), i),
-                _ => ended.push(i),
-            }
+            let Some(hit) = hit.as_ref().filter(|_| !deep(steps)) else {
+                ended.push(i);
+                continue;
+            };
+            let (shape, regularized) = (hit.shape, regularized(steps));
+            let key =
+                if by_shape { 2 * shape + u32::from(regularized) } else { of_material(shape, regularized) };
+            groups.push(key, i);
         }
         if sampler.has_tables() {
             groups.sort_by_depth(|i| paths.steps[i as usize].depth);
         }
-        joined.fill(groups);
+        joined.fill(groups, |key| if by_shape { of_material(key / 2, key % 2 == 1) } else { key });
     }
 
     /// Hands over the light of paths that have ended, whose places are free.
