@@ -62,18 +62,7 @@ pub(crate) struct PointBlock {
     uv: [[f32; MAX_WIDTH]; 2],
 }
 
-/// The same vector in all places.
-fn all(v: Vec3<f32>) -> Vectors {
-    v.to_array().map(|x| [x; MAX_WIDTH])
-}
-
 impl PointBlock {
-    /// Writes all places but their points, with texture coordinates of their own and all else as at one point.
-    pub(crate) fn fill(&mut self, s: &SurfacePoint, uv: &[[f32; MAX_WIDTH]; 2]) {
-        (self.p_error, self.ng, self.ns) = (all(s.p_error), all(s.ng), all(s.ns));
-        (self.tangent, self.dpdu, self.dpdv) = (all(s.tangent), all(s.dpdu), all(s.dpdv));
-        self.uv = *uv;
-    }
     /// Writes a point to place `k`, which is taken modulo the number of places.
     #[inline(always)]
     pub(crate) fn put(&mut self, k: usize, s: &SurfacePoint, parts: SurfaceParts) {
@@ -93,6 +82,13 @@ impl PointBlock {
     }
 }
 
+/// Writes the same vector to whole registers from `first` on.
+#[inline(always)]
+fn fill(to: &mut [&mut [f32]; 3], first: usize, v: Vec3<f32>) {
+    for (to, x) in to.iter_mut().zip(v.to_array()) {
+        to[first..first + MAX_WIDTH].fill(x);
+    }
+}
 /// Writes whole registers to places from `first` on.
 #[inline(always)]
 fn copy<const N: usize>(to: &mut [&mut [f32]; N], first: usize, from: &[[f32; MAX_WIDTH]; N]) {
@@ -115,6 +111,27 @@ impl SurfaceColumns<'_> {
         }
         if parts.uv {
             copy(&mut self.uv, first, &block.uv);
+        }
+    }
+    /// Writes points of a plane to as many places from `first` on: where they are, their texture coordinates, and all else as at `one`.
+    pub(crate) fn write_flat(
+        &mut self,
+        first: usize,
+        one: &SurfacePoint,
+        (p, uv): (&Vectors, &[[f32; MAX_WIDTH]; 2]),
+        parts: SurfaceParts,
+    ) {
+        copy(&mut self.p, first, p);
+        fill(&mut self.p_error, first, one.p_error);
+        fill(&mut self.ng, first, one.ng);
+        fill(&mut self.ns, first, one.ns);
+        fill(&mut self.tangent, first, one.tangent);
+        if parts.derivatives {
+            fill(&mut self.dpdu, first, one.dpdu);
+            fill(&mut self.dpdv, first, one.dpdv);
+        }
+        if parts.uv {
+            copy(&mut self.uv, first, uv);
         }
     }
 }

@@ -49,7 +49,9 @@ impl Ray {
 }
 
 /// Where a ray meets a primitive.
+// As large as a power of two, so that lists of hits are looked up in quickly.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(align(16))]
 pub struct Hit {
     /// Parameter along the ray.
     pub t: f32,

@@ -198,6 +198,10 @@ impl Scene {
         self.geometry.occluded_many(rays, out);
     }
 
+    /// Shapes, lamps without a material among them.
+    pub(crate) fn n_shapes(&self) -> usize {
+        self.material_of_shape.len()
+    }
     /// The material of a shape; none where rays pass unchanged.
     #[inline]
     pub(crate) fn material_of(&self, shape: u32) -> Option<u32> {

@@ -49,13 +49,28 @@ pub(crate) struct Face {
 /// One whose plane and sides lie along the axes.
 #[derive(Clone, Debug)]
 pub(crate) struct Wall {
-    pub(crate) extent: Extent,
     /// The axis of the normal, and those of the first and the second coordinate.
-    pub(crate) axes: [usize; 3],
+    pub(crate) axes: [Axis; 3],
     /// The centre, along these.
     pub(crate) center: RepeatedVector,
     /// Coordinates of steps along the last two.
     pub(crate) scales: [Repeated; 2],
+    /// The larger margin of the two coordinates, as in [`Extent`].
+    pub(crate) margin: Repeated,
+    /// As in [`Extent`].
+    pub(crate) depth: Repeated,
+    /// The longer diagonal.
+    pub(crate) across: f32,
+    /// The places of its triangles, as bits: of the one whose first coordinate is the larger, and of the other.
+    pub(crate) places: [Repeated; 2],
+}
+
+/// An axis of space.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Axis {
+    X = 0,
+    Y = 1,
+    Z = 2,
 }
 
 /// A parallelogram in double precision.
@@ -108,16 +123,24 @@ impl Frame {
     }
     /// The wall that this is, if it is one.
     pub(super) fn wall(&self) -> Option<Wall> {
-        let [e, f] = self.sides;
-        let along = |[k, i, j]: &[usize; 3]| e[*k] == 0.0 && f[*k] == 0.0 && e[*j] == 0.0 && f[*i] == 0.0;
-        let ways = [[0, 1, 2], [1, 2, 0], [2, 0, 1], [0, 2, 1], [1, 0, 2], [2, 1, 0]];
-        let axes @ [k, i, j] = ways.into_iter().find(along)?;
-        let center = vec3(self.center[k], self.center[i], self.center[j]);
+        use Axis::{X, Y, Z};
+        let [e, f] = self.sides.map(|v| [v.x, v.y, v.z]);
+        let along = |axes: &[Axis; 3]| {
+            let [k, i, j] = axes.map(|axis| axis as usize);
+            e[k] == 0.0 && f[k] == 0.0 && e[j] == 0.0 && f[i] == 0.0
+        };
+        let ways = [[X, Y, Z], [Y, Z, X], [Z, X, Y], [X, Z, Y], [Y, X, Z], [Z, Y, X]];
+        let axes = ways.into_iter().find(along).filter(|_| self.extent.bent == 0.0)?;
+        let [k, i, j] = axes.map(|axis| axis as usize);
+        let Extent { margins: [dx, dy], depth, across, place, .. } = self.extent;
         Some(Wall {
-            extent: self.extent.clone(),
             axes,
-            center: repeated(center),
+            center: repeated(vec3(self.center[k], self.center[i], self.center[j])),
             scales: [2.0 / e[i], 2.0 / f[j]].map(|s| [s as f32; RAYS]),
+            margin: if dx[0] < dy[0] { dy } else { dx },
+            depth,
+            across,
+            places: [place, place + 1].map(|place| [f32::from_bits(place); RAYS]),
         })
     }
 }

@@ -53,8 +53,16 @@ pub(crate) struct Other {
     pub(crate) bounds: Aabb,
     pub(crate) id: u32,
     pub(crate) place: u32,
-    /// Centre and radius of a ball that holds it; rounded to the nearest.
-    pub(crate) ball: ([f32; 3], f32),
+    pub(crate) ball: Ball,
+}
+
+/// A ball that holds a primitive; rounded to the nearest.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Ball {
+    pub(crate) center: [f32; 3],
+    pub(crate) radius: f32,
+    /// It is the primitive.
+    pub(crate) whole: bool,
 }
 
 /// A triangle of the tree.
@@ -93,7 +101,7 @@ impl Few {
     pub(crate) fn new(
         bvh: &Bvh,
         owner: impl Fn(u32) -> Owner,
-        ball: impl Fn(u32) -> Option<([f32; 3], f32)>,
+        ball: impl Fn(u32) -> Option<Ball>,
     ) -> Option<Few> {
         let [node] = &*bvh.nodes else { return None };
         let mut alone: Vec<Triangle> =
@@ -128,7 +136,7 @@ impl Few {
             let Some(bounds) = node.bounds_of(i) else { continue };
             let (id, place) = (child.index() as u32, all.len() as u32);
             let ball = ball(id)?;
-            radius = radius.max(Vec3::from(ball.0).to_f64().length() + f64::from(ball.1));
+            radius = radius.max(Vec3::from(ball.center).to_f64().length() + f64::from(ball.radius));
             all.push(rows(owner(id), [[0.0; 3]; 3]));
             others.push(Other { bounds, id, place, ball });
         }

@@ -20,7 +20,7 @@ mod traverse;
 
 pub(crate) use block::{RawHit, TriBlock, gamma};
 pub(crate) use build::{Box4, PrimRef};
-pub(crate) use few::{Few, Owner};
+pub(crate) use few::{Ball, Few, Owner};
 pub(crate) use motion::MotionBvh;
 pub(crate) use node::Kind;
 use node::{Child, Node};

@@ -4,8 +4,8 @@
 //! a single ray, to the bit. Where margins leave something open, rays are asked anew one by one.
 
 use super::block::RawHit;
-use super::face::{Extent, Face, RepeatedVector, Wall};
-use super::few::{Few, Other};
+use super::face::{Face, RepeatedVector, Wall};
+use super::few::{Ball, Few, Other};
 use super::ray_data::{PAD, TINY_INV};
 use super::settle::settle;
 use super::traverse::Others;
@@ -54,9 +54,13 @@ fn sum_abs<S: Simd>(v: Vectors<S>) -> S::F8 {
 pub(super) struct Packet<S: Simd> {
     pub(super) o: Vectors<S>,
     pub(super) d: Vectors<S>,
-    /// The product of direction and origin.
-    moment: Vectors<S>,
     pub(super) t_max: S::F8,
+    /// Reciprocals of the direction; zero where it is.
+    pub(super) inv: Vectors<S>,
+    /// What a rounding moves the parameters of points by, whose coordinate along an axis is known.
+    late: Vectors<S>,
+    /// The same times the length of the direction: what it moves the points by.
+    aside: Vectors<S>,
     /// The square of the direction's length.
     d2: S::F8,
     /// A quarter of what products of the direction and unit vectors err by.
@@ -79,11 +83,18 @@ impl<S: Simd> Packet<S> {
         let size = far * length;
         let sane = small.lt(length) & length.lt(large) & far.lt(large);
         let near = far * S::F8::splat(ROUNDING);
+        let inv = [inverse::<S>(dx), inverse::<S>(dy), inverse::<S>(dz)];
+        let late = [near * inv[0].abs(), near * inv[1].abs(), near * inv[2].abs()];
+        let aside = [late[0] * length, late[1] * length, late[2] * length];
+        // Not so close to a plane of the axes that it can hardly be told where they meet.
+        let sane = sane & aside[0].max(aside[1]).max(aside[2]).lt(near * S::F8::splat(1e12));
         Packet {
             o,
             d,
-            moment: cross::<S>(d, o),
             t_max,
+            inv,
+            late,
+            aside,
             d2: dot::<S>(d, d),
             turn: length * S::F8::splat(ROUNDING),
             near,
@@ -108,6 +119,12 @@ impl<S: Simd> Packet<S> {
     }
 }
 
+/// Reciprocals; zero of zero.
+#[inline(always)]
+fn inverse<S: Simd>(d: S::F8) -> S::F8 {
+    let zero = S::F8::splat(0.0);
+    (S::F8::splat(1.0) / d).only_where(zero.lt(d.abs()), zero)
+}
 /// Reciprocals, negated.
 #[inline(always)]
 fn minus_inv<S: Simd>(d: S::F8) -> S::F8 {
@@ -128,32 +145,25 @@ struct Seen<S: Simd> {
 
 impl<S: Simd> Seen<S> {
     #[inline(always)]
-    fn face(rays: &Packet<S>, f: &Face) -> Seen<S> {
+    fn new(rays: &Packet<S>, moment: Vectors<S>, f: &Face) -> Seen<S> {
         let normal = load::<S>(&f.normal);
         Seen {
             height: S::F8::load(&f.level) - dot::<S>(normal, rays.o),
             slope: dot::<S>(normal, rays.d),
-            x: line::<S>(rays, &f.of_moment[0], &f.of_direction[0]),
-            y: line::<S>(rays, &f.of_moment[1], &f.of_direction[1]),
-        }
-    }
-    #[inline(always)]
-    fn wall(rays: &Packet<S>, f: &Wall) -> Seen<S> {
-        let [o, d] = [rays.o, rays.d].map(|v| f.axes.map(|axis| v[axis]));
-        let [height, x, y] = minus::<S>(load::<S>(&f.center), o);
-        Seen {
-            height,
-            slope: d[0],
-            x: (height * d[1] - d[0] * x) * S::F8::load(&f.scales[0]),
-            y: (height * d[2] - d[0] * y) * S::F8::load(&f.scales[1]),
+            x: line::<S>([moment, rays.d], &f.of_moment[0], &f.of_direction[0]),
+            y: line::<S>([moment, rays.d], &f.of_moment[1], &f.of_direction[1]),
         }
     }
 }
 
-/// A coordinate of the lines of rays.
+/// A coordinate of lines, given as moments and directions.
 #[inline(always)]
-fn line<S: Simd>(rays: &Packet<S>, of_moment: &RepeatedVector, of_direction: &RepeatedVector) -> S::F8 {
-    dot::<S>(load::<S>(of_moment), rays.moment) - dot::<S>(load::<S>(of_direction), rays.d)
+fn line<S: Simd>(
+    [m, d]: [Vectors<S>; 2],
+    of_moment: &RepeatedVector,
+    of_direction: &RepeatedVector,
+) -> S::F8 {
+    dot::<S>(load::<S>(of_moment), m) - dot::<S>(load::<S>(of_direction), d)
 }
 
 /// A dot product, and the sum of what it adds without signs.
@@ -182,16 +192,46 @@ pub(super) struct Nearest<S: Simd> {
 }
 
 impl<S: Simd> Nearest<S> {
-    /// Tests half of a parallelogram where `HALF` says so, else all of it. `height_of` gives the part of a vector along the normal, and the sum
-    /// without signs of the products that it is the sum of.
+    /// Tests a wall. The sides that rays begin on are known to the bit.
+    #[inline(always)]
+    fn wall<const ANY: bool>(&mut self, rays: &Packet<S>, f: &Wall) {
+        let (zero, one) = (S::F8::splat(0.0), S::F8::splat(1.0));
+        let (axis, i, j) = (f.axes[0] as usize, f.axes[1] as usize, f.axes[2] as usize);
+        let height = S::F8::load(&f.center[0]) - rays.o[axis];
+        let (x0, y0) = (rays.o[i] - S::F8::load(&f.center[1]), rays.o[j] - S::F8::load(&f.center[2]));
+        let t = height * rays.inv[axis];
+        let x = (x0 + t * rays.d[i]) * S::F8::load(&f.scales[0]);
+        let y = (y0 + t * rays.d[j]) * S::F8::load(&f.scales[1]);
+        let off = x.abs().max(y.abs());
+        let (margin, dt) =
+            (rays.aside[axis] * S::F8::load(&f.margin), rays.late[axis] * S::F8::load(&f.depth));
+        let met = off.le(one + margin) & zero.lt(t) & (t - dt).le(self.t[1]);
+        if ANY {
+            if met.any() {
+                // Rays to a lamp end so close to it that only margins by its own distance tell.
+                let far = sum_abs::<S>([height, x0, y0]) + S::F8::splat(f.across);
+                let dt = far * rays.inv[axis].abs() * (S::F8::splat(ROUNDING) * S::F8::load(&f.depth));
+                let met = met & (t - dt).le(self.t[1]);
+                self.take::<ANY>(met, met & off.lt(one - margin) & dt.lt(t) & (t + dt).lt(self.t[0]));
+            }
+        } else {
+            let taken = met & (t + dt).lt(self.t[0]);
+            self.take::<ANY>(met, taken);
+            self.face = self.face | taken;
+            let place = S::F8::load(&f.places[1]).only_where(x.lt(y), S::F8::load(&f.places[0]));
+            self.put(taken, [t - dt, t + dt], place);
+        }
+    }
+
+    /// Tests half of a parallelogram where `HALF` says so, else all of it. The moments of the rays are the products of their directions and
+    /// origins.
     #[inline(always)]
     fn face<const ANY: bool, const HALF: bool>(
         &mut self,
-        rays: &Packet<S>,
-        f: &Extent,
-        Seen { height, slope, x, y }: Seen<S>,
-        height_of: impl Fn(Vectors<S>) -> [S::F8; 2],
+        (rays, moment): (&Packet<S>, Vectors<S>),
+        face: &Face,
     ) {
+        let (f, Seen { height, slope, x, y }) = (&face.extent, Seen::new(rays, moment, face));
         let (zero, steep, t) = (S::F8::splat(0.0), slope.abs(), height.signed(slope));
         let (dx, dy) = (rays.slack * S::F8::load(&f.margins[0]), rays.slack * S::F8::load(&f.margins[1]));
         let dt = rays.near * S::F8::load(&f.depth);
@@ -205,7 +245,7 @@ impl<S: Simd> Nearest<S> {
         }
         // A ray leaves its own surface closer than these margins can tell, or even in the plane, and ends that close before others.
         let to = minus::<S>(splat::<S>(f.center), rays.o);
-        let [height, terms] = height_of(to);
+        let [height, terms] = dot_and_terms::<S>(load::<S>(&face.normal), to);
         let aside = S::F8::splat(5.0 * ROUNDING) * terms + S::F8::splat(f.bent);
         let sided = aside.le(height.abs()) & (S::F8::splat(4.0) * rays.turn).lt(steep);
         let far = sum_abs::<S>(to) + S::F8::splat(f.across);
@@ -273,7 +313,7 @@ impl<S: Simd> Nearest<S> {
         list: &[Ray; RAYS],
         others: &impl Others,
     ) {
-        let (zero, (center, radius)) = (S::F8::splat(0.0), other.ball);
+        let (zero, Ball { center, radius, whole }) = (S::F8::splat(0.0), other.ball);
         let to = minus::<S>(splat::<S>(center), rays.o);
         // How far the ray's line passes from the centre, and the stretch of it within the ball; times the length of the direction.
         let off = cross::<S>(to, rays.d);
@@ -283,16 +323,25 @@ impl<S: Simd> Nearest<S> {
         let half = (outer * outer * rays.d2 - off2).sqrt();
         let slack = S::F8::splat(16.0) * rays.slack;
         let ahead = (zero - slack).le(along + half) & (along - half).le(self.t[1] * rays.d2 + slack);
-        let met = ahead & self.open;
+        let mut met = ahead & self.open;
         if !met.any() {
             return;
+        }
+        // Those that graze it may miss its box.
+        let inside = off2.lt(inner * inner * rays.d2) & zero.lt(inner);
+        if ANY && whole {
+            // They come from outside, and are in its middle before they end.
+            let sure = met & inside & slack.lt(along - half) & (along + slack).lt(self.t[0] * rays.d2);
+            self.take::<ANY>(sure, sure);
+            met = met & !sure;
+            if !met.any() {
+                return;
+            }
         }
         let (o, d) = (rays.o.map(S::F8::to_array), rays.d.map(S::F8::to_array));
         if let Some([near, far]) = others.roots(other.id, &o, &d) {
             let (near, far) = (S::F8::load(&near), S::F8::load(&far));
             let t = near.only_where(zero.lt(near), far);
-            // Those that graze it may miss its box.
-            let inside = off2.lt(inner * inner * rays.d2) & zero.lt(inner);
             self.offer::<ANY>(other.place, (met, inside), [t, zero, zero]);
         } else {
             self.one_by_one::<ANY>(other, met, (rays, list), others);
@@ -348,10 +397,12 @@ pub(crate) struct Eight {
 }
 
 impl Eight {
-    /// Ray i met something.
+    /// The rays that met something.
     #[inline(always)]
-    pub(crate) fn met(&self, i: usize) -> bool {
-        self.hit >> i & 1 == 1
+    pub(crate) fn met(&self) -> [bool; RAYS] {
+        // A bit for a byte.
+        let bits = (u64::from(self.hit) * 0x0101_0101_0101_0101) & 0x8040_2010_0804_0201;
+        bits.to_le_bytes().map(|b| b != 0)
     }
     /// What ray i met, if it did.
     #[inline(always)]
@@ -360,7 +411,7 @@ impl Eight {
         let [t, shape, prim, u] = [row[at], row[at + 1], row[at + 2], row[at + 3]];
         let hit =
             Hit { t, shape: shape.to_bits(), prim: prim.to_bits(), u, v: self.v[i % RAYS], instance: None };
-        self.met(i).then_some(hit)
+        (self.hit >> i & 1 == 1).then_some(hit)
     }
 }
 
@@ -381,23 +432,23 @@ pub(super) fn hit<S: Simd, const ANY: bool>(few: &Few, list: &[Ray; RAYS], other
         open: rays.sane,
     };
     for f in &few.walls {
-        let seen = Seen::wall(&rays, f);
-        nearest.face::<ANY, false>(&rays, &f.extent, seen, |v| [v[f.axes[0]], v[f.axes[0]].abs()]);
+        nearest.wall::<ANY>(&rays, f);
     }
-    for f in &few.squares {
-        let seen = Seen::face(&rays, f);
-        nearest.face::<ANY, false>(&rays, &f.extent, seen, |v| dot_and_terms::<S>(load::<S>(&f.normal), v));
-    }
-    for f in &few.triangles {
-        let seen = Seen::face(&rays, f);
-        nearest.face::<ANY, true>(&rays, &f.extent, seen, |v| dot_and_terms::<S>(load::<S>(&f.normal), v));
+    if few.squares.len() + few.triangles.len() > 0 {
+        let moment = cross::<S>(rays.d, rays.o);
+        for f in &few.squares {
+            nearest.face::<ANY, false>((&rays, moment), f);
+        }
+        for f in &few.triangles {
+            nearest.face::<ANY, true>((&rays, moment), f);
+        }
     }
     for other in &few.others {
         nearest.other::<ANY>(&rays, other, list, others);
     }
     nearest.anew = nearest.anew | !rays.sane;
     if ANY {
-        let hit = nearest.hit.bits();
+        let hit = (nearest.hit & rays.sane).bits();
         Eight { hit, anew: nearest.anew.bits() & !hit, ..Eight::default() }
     } else {
         settle(few, &rays, nearest)

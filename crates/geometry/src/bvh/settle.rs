@@ -40,13 +40,12 @@ impl<S: Simd> Shear<S> {
         let turns = Turns::<S>::new(rays.d);
         let d = turns.of(rays.d);
         let sz = S::F8::splat(1.0) / d[2];
-        Shear { o: turns.of(rays.o), s: [d[0] * sz, d[1] * sz, sz], turns }
+        Shear { o: rays.o, s: [d[0] * sz, d[1] * sz, sz], turns }
     }
     #[inline(always)]
     fn of(&self, p: Vectors<S>) -> Vectors<S> {
-        let p = self.turns.of(p);
-        let z = p[2] - self.o[2];
-        [p[0] - self.o[0] - self.s[0] * z, p[1] - self.o[1] - self.s[1] * z, z]
+        let [x, y, z] = self.turns.of([p[0] - self.o[0], p[1] - self.o[1], p[2] - self.o[2]]);
+        [x - self.s[0] * z, y - self.s[1] * z, z]
     }
 }
 

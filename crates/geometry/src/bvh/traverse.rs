@@ -19,8 +19,8 @@ pub(crate) trait Others {
     /// Offers every point of the ray before `t_max` on primitive `id` to `found`, which answers with the new
     /// `t_max`; returns the last of them.
     fn hit(&self, id: u32, ray: &Ray, t_max: f32, found: &mut impl FnMut(RawHit) -> f32) -> f32;
-    /// Where the lines of eight rays meet primitive `id`, in order and rounded, if that is a whole ball; not numbers where they do
-    /// not, or only behind their origins. Takes origins and directions axis by axis.
+    /// Where the lines of eight rays, whose directions are not zero, meet primitive `id`, in order and rounded, if that is a whole ball; not
+    /// numbers where they do not, and nothing positive behind their origins. Takes origins and directions axis by axis.
     #[inline(always)]
     fn roots(&self, _id: u32, _o: &[[f32; RAYS]; 3], _d: &[[f32; RAYS]; 3]) -> Option<[[f32; RAYS]; 2]> {
         None

@@ -4,7 +4,7 @@ use rayon::prelude::*;
 use sparrow_math::{Aabb, Vec3};
 
 use super::BuildBytes;
-use crate::bvh::{Kind, MAX_PRIMS, Others, Owner, PrimRef, RAYS, RawHit};
+use crate::bvh::{Ball, Kind, MAX_PRIMS, Others, Owner, PrimRef, RAYS, RawHit};
 use crate::curve::{Curves, DeformingCurves};
 use crate::deforming::Deforming;
 use crate::instance::padded;
@@ -219,9 +219,12 @@ impl Bodies {
     }
     /// A ball that holds a primitive, which is not a triangle; `None` where the points that a ray is offered of it depend on
     /// where the ray ends.
-    pub(super) fn ball(&self, id: u32) -> Option<([f32; 3], f32)> {
+    pub(super) fn ball(&self, id: u32) -> Option<Ball> {
         let (shape, local) = self.locate(id);
-        let around = |b: Aabb| (((b.lo + b.hi) * 0.5).to_array(), 0.5 * b.extent().length());
+        let around = |b: Aabb| {
+            let center = ((b.lo + b.hi) * 0.5).to_array();
+            Ball { center, radius: 0.5 * b.extent().length(), whole: false }
+        };
         match &self.bodies[shape as usize] {
             Body::Patches(m) => Some(around(m.bounds(local))),
             Body::Quadric(q) => q.as_ref().map(|q| q.whole().unwrap_or_else(|| around(q.bounds()))),
@@ -231,9 +234,9 @@ impl Bodies {
     /// A ball around what can be hit of a shape.
     pub(super) fn ball_around(&self, shape: usize) -> Option<(Vec3<f32>, f32)> {
         if let Some(Body::Quadric(Some(q))) = self.bodies.get(shape)
-            && let Some((center, radius)) = q.whole()
+            && let Some(ball) = q.whole()
         {
-            return Some((center.into(), radius));
+            return Some((ball.center.into(), ball.radius));
         }
         let (refs, _) = self.refs(shape..self.bodies.len().min(shape + 1));
         let around = refs.iter().fold(Aabb::EMPTY, |all, one| all.union(one.aabb()));

@@ -38,9 +38,7 @@ impl Answers for Any<'_> {
     }
     #[inline(always)]
     fn eight(&mut self, first: usize, hits: &Eight) {
-        for (i, out) in self.0[first..first + RAYS].iter_mut().enumerate() {
-            *out = hits.met(i);
-        }
+        self.0[first..first + RAYS].copy_from_slice(&hits.met());
     }
 }
 

@@ -1,13 +1,12 @@
 //! What is known of the points that rays met, one by one and many at once.
 
-use sparrow_math::{MAX_WIDTH, Vec3};
+use sparrow_math::{MAX_WIDTH, Vec3, vec3};
 
 use super::Geometry;
 use super::body::Body;
-use crate::columns::{PointBlock, SurfaceColumns, SurfaceParts};
-use crate::patch::Patches;
+use crate::columns::{PointBlock, SurfaceColumns, SurfaceParts, Vectors, set};
 use crate::point::SurfacePoint;
-use crate::quadric::{Met, Quadric};
+use crate::quadric::Met;
 use crate::ray::{Hit, Ray};
 
 impl Geometry {
@@ -51,29 +50,32 @@ impl Geometry {
         parts: SurfaceParts,
         out: &mut SurfaceColumns<'_>,
     ) {
-        let (mut block, mut met) = (PointBlock::default(), Met::default());
+        let (mut block, mut met, mut at) = (PointBlock::default(), Met::default(), Vectors::default());
         for (n, which) in which.chunks(MAX_WIDTH).enumerate() {
-            if let Some(ball) = self.ball_of(hits, which).filter(|_| parts == SurfaceParts::default()) {
-                for (k, &i) in which.iter().enumerate() {
-                    let t = hits[i as usize].map_or(0.0, |hit| hit.t);
-                    met.set(k, &rays[i as usize], t);
+            let first = n * MAX_WIDTH;
+            let one = together(hits, which, &mut at).and_then(|hit| Some((self.body(hit.shape)?, hit.prim)));
+            match one {
+                Some((Body::Patches(patches), prim)) if patches.is_plain(prim) => {
+                    let [_, u, v] = at;
+                    patches.surface_many(prim, &[u, v], first, (&mut *out, parts));
+                    continue;
                 }
-                ball.surface_many(&met, &mut block);
-            } else if let Some((patches, prim)) = self.plain_of(hits, which) {
-                let mut uv = [[0.0; MAX_WIDTH]; 2];
-                for (k, &i) in which.iter().enumerate() {
-                    [uv[0][k], uv[1][k]] = hits[i as usize].map_or([0.0; 2], |hit| [hit.u, hit.v]);
+                Some((Body::Quadric(Some(q)), _)) if q.is_ball() && parts == SurfaceParts::default() => {
+                    for (k, (&i, t)) in which.iter().zip(at[0]).enumerate() {
+                        met.set(k, &rays[i as usize], t);
+                    }
+                    q.surface_many(&met, &mut block);
                 }
-                patches.surface_many(prim, &uv, &mut block);
-            } else {
-                self.ahead(hits, which);
-                for (k, &i) in which.iter().enumerate() {
-                    if let Some(hit) = &hits[i as usize] {
-                        self.put(&rays[i as usize], hit, k, &mut block, parts);
+                _ => {
+                    self.ahead(hits, which);
+                    for (k, &i) in which.iter().enumerate() {
+                        if let Some(hit) = &hits[i as usize] {
+                            self.put(&rays[i as usize], hit, k, &mut block, parts);
+                        }
                     }
                 }
             }
-            out.write(n * MAX_WIDTH, &block, parts);
+            out.write(first, &block, parts);
         }
     }
     /// Asks for what the surface at these hits will read, where the first of them lies on a mesh.
@@ -100,24 +102,6 @@ impl Geometry {
             _ => block.put(k, &self.surface(ray, hit), parts),
         }
     }
-    /// The whole ball of the world on which all of these hits lie.
-    #[inline]
-    fn ball_of(&self, hits: &[Option<Hit>], which: &[u32]) -> Option<&Quadric> {
-        let on = |i: &u32| hits[*i as usize].filter(|hit| hit.instance.is_none()).map(|hit| hit.shape);
-        let shape = on(which.first()?)?;
-        let Some(Body::Quadric(Some(q))) = self.body(shape) else { return None };
-        (q.is_ball() && which.iter().all(|i| on(i) == Some(shape))).then_some(q)
-    }
-
-    /// The parallelogram of the world on which all of these hits lie, and its number, if shading and textures say nothing of it.
-    #[inline]
-    fn plain_of(&self, hits: &[Option<Hit>], which: &[u32]) -> Option<(&Patches, u32)> {
-        let on = |i: &u32| hits[*i as usize].filter(|hit| hit.instance.is_none()).map(|h| (h.shape, h.prim));
-        let first @ (shape, prim) = on(which.first()?)?;
-        let Some(Body::Patches(m)) = self.body(shape) else { return None };
-        (which.iter().all(|i| on(i) == Some(first)) && m.is_plain(prim)).then_some((m, prim))
-    }
-
     /// Derivatives of the shading normal by the texture coordinates at `hit`, which this geometry gave for `ray`.
     ///
     /// Few materials ask for them, so they are not part of [`SurfacePoint`]. Zero for curves.
@@ -135,4 +119,18 @@ impl Geometry {
             Body::Curves(_) | Body::Quadric(None) => Default::default(),
         }
     }
+}
+
+/// The first of these hits, if all lie on the same primitive of the world; writes their parameters, along the ray and those on the primitive.
+#[inline]
+fn together<'a>(hits: &'a [Option<Hit>], which: &[u32], at: &mut Vectors) -> Option<&'a Hit> {
+    let first = hits[*which.first()? as usize].as_ref()?;
+    for (k, &i) in which.iter().take(MAX_WIDTH).enumerate() {
+        let Some(Hit { t, shape, prim, u, v, instance: None }) = hits[i as usize] else { return None };
+        if (shape, prim) != (first.shape, first.prim) {
+            return None;
+        }
+        set(at, k, vec3(t, u, v));
+    }
+    Some(first)
 }

@@ -4,7 +4,7 @@ use sparrow_math::{InLanes, MAX_WIDTH, Real, Vec3, in_lanes, vec3};
 
 use super::flat::p_error;
 use super::{Bilinear, Flat, Kind, Patches};
-use crate::columns::{PointBlock, SurfaceParts, Vectors, set};
+use crate::columns::{PointBlock, SurfaceColumns, SurfaceParts, Vectors, set};
 use crate::point::SurfacePoint;
 use crate::ray::Hit;
 
@@ -150,11 +150,19 @@ impl Patches {
     pub(crate) fn is_plain(&self, prim: u32) -> bool {
         self.plain(prim).is_some()
     }
-    /// The surface at points of such a patch, given its parameters; nothing on others.
-    pub(crate) fn surface_many(&self, prim: u32, uv: &[[f32; MAX_WIDTH]; 2], block: &mut PointBlock) {
+    /// The surface at points of such a patch, given its parameters, to places from `first` on; nothing on others.
+    pub(crate) fn surface_many(
+        &self,
+        prim: u32,
+        uv: &[[f32; MAX_WIDTH]; 2],
+        first: usize,
+        (out, parts): (&mut SurfaceColumns<'_>, SurfaceParts),
+    ) {
         if let Some(flat) = self.plain(prim) {
-            block.fill(&flat.surface(&Hit { t: 0.0, shape: 0, prim, u: 0.0, v: 0.0, instance: None }), uv);
-            in_lanes(Points { flat, uv, p: &mut block.p });
+            let mut p = Vectors::default();
+            in_lanes(Points { flat, uv, p: &mut p });
+            let one = flat.surface(&Hit { t: 0.0, shape: 0, prim, u: 0.0, v: 0.0, instance: None });
+            out.write_flat(first, &one, (&p, uv), parts);
         }
     }
     fn surface_of_any(&self, hit: &Hit) -> SurfacePoint {

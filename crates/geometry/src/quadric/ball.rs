@@ -38,15 +38,14 @@ impl Ball {
         let [x, y] = line.roots();
         Some(if line.b < 0.0 { [y, x] } else { [x, y] })
     }
-    /// The same without a branch, so that loops run in lanes; not numbers where there is `None`.
+    /// The same without a branch, so that loops run in lanes; not numbers where it does not, and nothing positive where it does behind the
+    /// origin.
     #[inline(always)]
     pub(super) fn roots_or_nan(&self, ray: &Ray) -> [f64; 2] {
         let (o, d) = self.line(ray);
         let line = Line::new(o, d, self.radius);
         let [x, y] = line.roots();
-        let [near, far] = if line.b < 0.0 { [y, x] } else { [x, y] };
-        let met = !line.goes_away() & line.meets();
-        [if met { near } else { f64::NAN }, if met { far } else { f64::NAN }]
+        if line.b < 0.0 { [y, x] } else { [x, y] }
     }
     /// The unit vector from the centre to where the ray meets the sphere close to `t`.
     // Without a branch, so that loops run in lanes.

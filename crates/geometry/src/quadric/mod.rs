@@ -14,7 +14,7 @@ pub(crate) use columns::Met;
 use form::{Form, Local};
 use sparrow_math::{Aabb, Transform, Vec3, vec3};
 
-use crate::bvh::{RAYS, RawHit};
+use crate::bvh::{self, RAYS, RawHit};
 use crate::point::SurfacePoint;
 use crate::ray::{Hit, Ray};
 use crate::shape::Shape;
@@ -86,9 +86,13 @@ impl Quadric {
         }
     }
 
-    /// Centre and radius, if this is a whole sphere; rounded to the nearest.
-    pub(crate) fn whole(&self) -> Option<([f32; 3], f32)> {
-        self.ball.map(|b| (b.center.to_f32().to_array(), b.radius as f32))
+    /// The ball that this is, if it is a whole sphere.
+    pub(crate) fn whole(&self) -> Option<bvh::Ball> {
+        self.ball.map(|b| bvh::Ball {
+            center: b.center.to_f32().to_array(),
+            radius: b.radius as f32,
+            whole: true,
+        })
     }
 
     fn to_local(&self, ray: &Ray) -> (Vec3<f64>, Vec3<f64>) {

@@ -1,4 +1,4 @@
-//! What has the same key put together: [`Groups`].
+//! What has the same key put together: [`Groups`], and those of several keys: [`Joined`].
 
 /// Numbers put together by their key, of which there may be many more than have numbers at a time.
 #[derive(Default)]
@@ -45,13 +45,50 @@ impl Groups {
     }
 }
 
+/// Groups put together once more.
+#[derive(Default)]
+pub(super) struct Joined {
+    /// Places of the groups in the order in which they follow each other.
+    order: Vec<usize>,
+    /// The numbers of all groups.
+    numbers: Vec<u32>,
+    /// What the keys of neighbours have in common, and where their numbers end.
+    ends: Vec<(u32, usize)>,
+}
+
+impl Joined {
+    /// Joins groups for whose keys `of` gives the same.
+    pub(super) fn fill(&mut self, groups: &Groups, of: impl Fn(u32) -> u32) {
+        let Joined { order, numbers, ends } = self;
+        numbers.clear();
+        ends.clear();
+        order.clear();
+        order.extend(0..groups.keys.len());
+        order.sort_unstable_by_key(|&g| (of(groups.keys[g]), g));
+        for &g in &*order {
+            numbers.extend_from_slice(&groups.groups[g]);
+            let (common, end) = (of(groups.keys[g]), numbers.len());
+            match ends.last_mut() {
+                Some(last) if last.0 == common => last.1 = end,
+                _ => ends.push((common, end)),
+            }
+        }
+    }
+    /// What was joined, in parts where it is longer than `size`, each with what `of` gave.
+    pub(super) fn parts(&self, size: usize) -> impl Iterator<Item = (u32, &[u32])> {
+        let begins = core::iter::once(0).chain(self.ends.iter().map(|&(_, end)| end));
+        let all = begins.zip(&self.ends).map(|(begin, &(common, end))| (common, &self.numbers[begin..end]));
+        all.flat_map(move |(common, numbers)| numbers.chunks(size).map(move |part| (common, part)))
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn numbers_of_one_key_stand_together_in_the_order_of_depth() {
-        let mut groups = Groups::default();
+        let (mut groups, mut joined) = (Groups::default(), Joined::default());
         let depth = |i: u32| [0, 0, 0, 0, 2, 1, 0][i as usize];
         for _ in 0..3 {
             groups.clear(5);
@@ -61,6 +98,9 @@ mod tests {
             groups.sort_by_depth(depth);
             let found: Vec<_> = groups.parts(3).collect();
             assert_eq!(found, [(3, &[0, 2, 6][..]), (3, &[5]), (1, &[1, 4]), (4, &[3])]);
+            joined.fill(&groups, |key| key % 3);
+            let found: Vec<_> = joined.parts(3).collect();
+            assert_eq!(found, [(0, &[0, 2, 6][..]), (0, &[5]), (1, &[1, 4, 3])]);
         }
     }
 }

@@ -31,7 +31,7 @@ pub(crate) use self::column::{Column, pad};
 use self::escapes::Escapes;
 use self::families::Families;
 use self::fresh::Fresh;
-use self::groups::Groups;
+use self::groups::{Groups, Joined};
 use self::lamps::Lamps;
 use self::paths::{Paths, Steps};
 use self::shadow::Shadows;
@@ -48,6 +48,9 @@ const N_PATHS: usize = 1024;
 /// In a small scene, which leaves them all of the cache.
 const N_PATHS_OF_ROOM: usize = 2048;
 
+/// Most shapes for which vertices are put together by shape: fewer than there are paths, so that many meet the same.
+const FEW_SHAPES: usize = 64;
+
 /// Paths side by side, and room for what happens at their vertices.
 pub(crate) struct Block<R> {
     fresh: Fresh,
@@ -62,6 +65,7 @@ pub(crate) struct Block<R> {
     lamps: Lamps,
     escapes: Escapes,
     groups: Groups,
+    joined: Joined,
     batch: Batch,
     shadows: Shadows,
     rays: RayCounts,
@@ -80,6 +84,7 @@ impl<R: Record + Default> Default for Block<R> {
             lamps: Lamps::default(),
             escapes: Escapes::default(),
             groups: Groups::default(),
+            joined: Joined::default(),
             batch: Batch::default(),
             shadows: Shadows::default(),
             rays: RayCounts::default(),
@@ -103,7 +108,7 @@ impl<R: Record + Default> Block<R> {
             self.emitted(scene, &how);
             self.branch(scene, tile.plan, &how, sampler);
             self.group(scene, sampler, &how);
-            for (key, which) in self.groups.parts(BATCH) {
+            for (key, which) in self.joined.parts(BATCH) {
                 if key == batch::passes(scene) {
                     pass(scene, &mut self.paths.ray, &self.hits, which);
                     continue;
@@ -205,25 +210,33 @@ impl<R: Record + Default> Block<R> {
         }
     }
 
-    /// Paths end, pass through, or have a vertex: these are put together by material.
+    /// Paths end, pass through, or have a vertex: these are put together by material, and where shapes are few, among those by shape.
     fn group(&mut self, scene: &Scene, sampler: &Sampler, how: &PathIntegrator) {
-        let Block { paths, groups, ended, hits, .. } = self;
-        let passes = batch::passes(scene);
-        groups.clear(passes as usize + 1);
+        let Block { paths, groups, joined, ended, hits, .. } = self;
+        let PathIntegrator { max_depth, max_smooth, regularize, .. } = *how;
+        let deep = move |s: &Steps| (s.depth == max_depth) | (s.n_smooth == max_smooth);
+        let regularized = move |s: &Steps| regularize & (s.n_smooth > 0);
+        let of_material = |shape: u32, regularized: bool| {
+            scene
+                .material_of(shape)
+                .map_or(batch::passes(scene), |material| batch::key(material, regularized))
+        };
+        let by_shape = scene.n_shapes() <= FEW_SHAPES && !sampler.has_tables();
+        groups.clear(if by_shape { 2 * scene.n_shapes() } else { batch::passes(scene) as usize + 1 });
         for ((hit, steps), i) in hits.iter().zip(&paths.steps).zip(0..) {
-            let Steps { depth, n_smooth, .. } = *steps;
-            let deep = depth == how.max_depth || n_smooth == how.max_smooth;
-            let Some(hit) = hit.as_ref().filter(|_| !deep) else {
+            let Some(hit) = hit.as_ref().filter(|_| !deep(steps)) else {
                 ended.push(i);
                 continue;
             };
-            let regularized = how.regularize && n_smooth > 0;
-            let material = scene.material_of(hit.shape);
-            groups.push(material.map_or(passes, |material| batch::key(material, regularized)), i);
+            let (shape, regularized) = (hit.shape, regularized(steps));
+            let key =
+                if by_shape { 2 * shape + u32::from(regularized) } else { of_material(shape, regularized) };
+            groups.push(key, i);
         }
         if sampler.has_tables() {
             groups.sort_by_depth(|i| paths.steps[i as usize].depth);
         }
+        joined.fill(groups, |key| if by_shape { of_material(key / 2, key % 2 == 1) } else { key });
     }
 
     /// Hands over the light of paths that have ended, whose places are free.
