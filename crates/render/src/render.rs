@@ -144,9 +144,8 @@ fn observed<O: Observer>(
         let own = if O::LEARNS { points_of_pass(&points, done, n) } else { None };
         let (sampler, samples) = own.as_ref().map_or((&points, done..done + n), |s| (s, 0..n));
         let exposure = Exposure::observed(sampler, film, observer);
-        let side = run.tile_side(n);
-        let job = |origin| Job { exposure: &exposure, origin, side, samples: samples.clone() };
-        let whole = run.pass(&run.origins(side).into_iter().map(job).collect::<Vec<Job<'_, O>>>())?;
+        let job = |(origin, side)| Job { exposure: &exposure, origin, side, samples: samples.clone() };
+        let whole = run.pass(&run.tiles(n).into_iter().map(job).collect::<Vec<Job<'_, O>>>())?;
         film = exposure.into_film();
         if !whole {
             break; // It was stopped within the pass.

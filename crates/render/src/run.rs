@@ -2,10 +2,9 @@
 
 use std::ops::Range;
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 use std::time::Instant;
 
-use rayon::prelude::*;
 use sparrow_scene::RouletteName;
 
 use crate::film::Film;
@@ -113,15 +112,28 @@ impl<'a> Run<'a> {
         })
     }
 
-    /// The side of tiles that get so many samples a pixel.
-    pub(crate) fn tile_side(&self, samples: u32) -> u32 {
+    /// The tiles of a pass that takes so many samples a pixel: the first pixel of each, and pixels along its sides. The last are small, so
+    /// that threads end together.
+    pub(crate) fn tiles(&self, samples: u32) -> Vec<([u32; 2], u32)> {
+        let n_threads = self.pool.current_num_threads() as u32;
         let n_tiles = |side: u32| self.plan.size().map(|s| s.div_ceil(side)).iter().product::<u32>();
-        let least = TILES_PER_THREAD * self.pool.current_num_threads() as u32;
         let mut side = TILE;
-        while side * side * samples < TILE_SAMPLES && n_tiles(2 * side) >= least {
+        while side * side * samples < TILE_SAMPLES && n_tiles(2 * side) >= TILES_PER_THREAD * n_threads {
             side *= 2;
         }
-        side
+        let [width, height] = self.plan.size();
+        let (mut tiles, origins, half) = (Vec::new(), self.origins(side), side / 2);
+        let n_large =
+            if n_threads > 1 && half >= TILE { origins.len() - origins.len() / 4 } else { origins.len() };
+        for (i, [x, y]) in origins.into_iter().enumerate() {
+            if i < n_large {
+                tiles.push(([x, y], side));
+                continue;
+            }
+            let parts = [[x, y], [x + half, y], [x, y + half], [x + half, y + half]];
+            tiles.extend(parts.into_iter().filter(|[x, y]| *x < width && *y < height).map(|at| (at, half)));
+        }
+        tiles
     }
 
     /// First pixels of all tiles of that side, row by row.
@@ -146,22 +158,21 @@ impl<'a> Run<'a> {
         self.samples_total.store(samples_total, Ordering::Relaxed);
     }
 
-    /// Works off all jobs; false where the render was stopped within them.
+    /// Works off all jobs, in their order; false where the render was stopped within them.
     pub(crate) fn pass<'j, O: Observer>(&self, jobs: &[Job<'j, O>]) -> Result<bool, RenderError> {
-        let whole = AtomicBool::new(true);
-        let blocks = Mutex::new(Vec::new());
-        self.pool.install(|| {
-            jobs.par_iter().try_for_each(|job| {
+        let (whole, next) = (AtomicBool::new(true), AtomicUsize::new(0));
+        let done = self.pool.broadcast(|_| {
+            let mut block = Block::default();
+            while let Some(job) = jobs.get(next.fetch_add(1, Ordering::Relaxed)) {
                 if self.ended() {
                     whole.store(false, Ordering::Relaxed);
-                    return Ok(());
+                    break;
                 }
-                let mut block = lock(&blocks).pop().unwrap_or_else(|| Box::new(Block::default()));
-                let done = self.tile(job, &mut block);
-                lock(&blocks).push(block);
-                done
-            })
-        })?;
+                self.tile(job, &mut block)?;
+            }
+            Ok(())
+        });
+        done.into_iter().collect::<Result<(), RenderError>>()?;
         Ok(whole.into_inner())
     }
 
