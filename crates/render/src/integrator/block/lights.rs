@@ -24,7 +24,7 @@ pub(super) struct LightSamples {
     /// Of that choice; zero where there is none.
     probability: Column,
     groups: Groups,
-    /// Vertices for which a light was chosen, those of one light together.
+    /// Vertices for which a light was chosen, those of one light together but for bulbs.
     pub(super) order: Vec<u32>,
     /// To the light, unit.
     pub(super) wi: [Column; 3],

@@ -52,7 +52,7 @@ struct Columns {
 
 impl Shadows {
     /// Takes over the light samples of vertices that the BSDF scatters to the viewer; it does so by `f_cos`, and draws these directions
-    /// with density `pdf`. Rays to one light follow each other.
+    /// with density `pdf`. Rays follow each other in the order of the samples.
     pub(super) fn push(
         &mut self,
         how: &PathIntegrator,
