@@ -59,9 +59,12 @@ impl LightBuild<'_> {
             }
         }
         let selection = self.selection(&out);
+        // Light from all around is met by every ray that leaves the scene.
+        let around = !out.infinite.is_empty();
         let shining = self.emitters.iter().zip(0..).filter_map(|(of, shape)| of.map(|_| shape));
+        let emitters = if around { None } else { Emitters::new(self.geometry, shining) };
         Lights {
-            emitters: Emitters::new(self.geometry, shining),
+            emitters,
             bulbs: Bulbs::new(self.geometry, &out.lights, &out.emissions),
             lights: out.lights,
             emissions: out.emissions,

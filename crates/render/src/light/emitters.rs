@@ -42,7 +42,8 @@ impl Emitters {
             let radius2 = R::of(f64::from(*radius).sqr()) + R::of(MARGIN) * distance2;
             // Of the line, the point next to the centre; the ray begins inside, or goes there.
             let ahead = along.gt(R::ZERO) | distance2.le(radius2);
-            met = met | (ahead & (distance2 - along * along).le(radius2));
+            // Also where squares overflow, which tells nothing.
+            met = met | (ahead & !(distance2 - along * along).gt(radius2));
         }
         met
     }
@@ -91,6 +92,13 @@ mod tests {
             assert!(!far || !emitters.may_be_met::<f32>(o, past), "{o:?} {past:?}");
         }
         assert!(met > 50_000, "{met}");
+    }
+
+    /// Beyond what squares can hold, nothing is ruled out.
+    #[test]
+    fn rays_from_afar_are_asked() {
+        let emitters = Emitters(vec![Ball { center: [0.0; 3], radius: 1.0 }]);
+        assert!(emitters.may_be_met::<f32>(vec3(0.0, 0.0, -3e19), vec3(0.0, 0.0, 1.0)));
     }
 
     #[test]

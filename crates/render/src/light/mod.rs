@@ -160,7 +160,7 @@ pub struct Lights {
     first_of_shape: Vec<u32>,
     /// Lights that rays meet where they leave the scene.
     infinite: Vec<u32>,
-    /// Where else rays meet light, unless that takes too long to ask.
+    /// Where alone rays meet light; `None` where it comes from all around, or where that takes too long to ask.
     emitters: Option<Emitters>,
     selection: LightSelection,
     bulbs: Bulbs,
@@ -190,9 +190,9 @@ impl Lights {
         let Light::Environment(e) = &self.lights[light as usize] else { return None };
         e.samples_in_lanes().then_some((light, e))
     }
-    /// Where alone rays may meet light; `None` where it comes from all around, or where that takes too long to ask.
+    /// Where alone rays may meet light, if that is known and quick to ask.
     pub(crate) fn emitters(&self) -> Option<&Emitters> {
-        self.emitters.as_ref().filter(|_| self.infinite.is_empty())
+        self.emitters.as_ref()
     }
     /// Radius of the scene, with which powers of infinite lights were estimated.
     pub fn bounds_radius(&self) -> f32 {
